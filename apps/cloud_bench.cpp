@@ -11,14 +11,14 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kLeastCloud = 10'000;
+constexpr std::size_t kMinCloud = 10'000;
 constexpr double kBytesOfPoint = 48;
 
 }  // namespace
 
 void benchClouds(SurfaceBench& bench) {
   const std::size_t most = bench.options().most;
-  for (std::size_t size = std::min(kLeastCloud, most); size <= most; size *= 10) {
+  for (std::size_t size = std::min(kMinCloud, most); size <= most; size *= 10) {
     BenchSurface surface{fmt::format("points:terrain:{}", size), static_cast<double>(size), 0, 0};
     needMemory(kBytesOfPoint * surface.stored, fmt::format("{} points", size));
     const std::int64_t begin_ns = monotonicNow_ns();

@@ -24,7 +24,7 @@ namespace hl {
 namespace {
 
 constexpr double kSide_m = 0.2;  // of a scene from a file, as of the built-in ones
-constexpr std::size_t kMin = 1000, kMostMesh = 10'000'000, kMostStored = 100'000'000'000;
+constexpr std::size_t kMin = 1000, kMaxMesh = 10'000'000, kMaxStored = 100'000'000'000;
 
 struct SceneName {
   const char* name;
@@ -129,7 +129,7 @@ void run(const BenchOptions& options) {
   if (options.depth > 0) return runCameraBench({options.depth, options.csv});
   if (!options.surfaces.empty())
     return runSurfaceBench({options.surfaces, options.most, options.ticks, options.radius, options.csv});
-  if (options.most > kMostMesh) throw Error(fmt::format("--most: meshes are measured up to {} triangles", kMostMesh));
+  if (options.most > kMaxMesh) throw Error(fmt::format("--most: meshes are measured up to {} triangles", kMaxMesh));
   bench::SuitePlan plan;
   plan.scenes = scenesOf(options);
   plan.motions = chosen(bench::kFingerMotions, options.motions, options.all);
@@ -205,7 +205,7 @@ void addBenchCommand(CLI::App& app) {
       ->check(CLI::Range(100, 10'000'000))
       ->capture_default_str();
   command->add_option("--most", options->most, "largest number of triangles, samples or points")
-      ->check(CLI::Range(kMin, kMostStored))
+      ->check(CLI::Range(kMin, kMaxStored))
       ->capture_default_str();
   command->add_option("--csv", options->csv, "also write the table to this file")->option_text("FILE");
   auto* bodies = command->add_flag("--bodies", options->bodies,

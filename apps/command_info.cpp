@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/utf8.h"
 #include "bodies/made_bodies.h"
 #include "commands.h"
 #include "scene/bump_gain.h"
@@ -18,7 +19,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostPrinted = 50;  // bodies, and joints
+constexpr std::size_t kMaxPrinted = 50;  // bodies, and joints
 
 void printTexture(const Model& model, const TextureUse& use, const std::string& name, const std::string& unit) {
   if (!use.used()) return;
@@ -32,16 +33,16 @@ void printMaterial(const Snapshot& snapshot, std::size_t number) {
   const Model& model = snapshot.shape().model;
   const Material& m = model.materials[number];
   fmt::print("material {}: {}", number, m.smooth ? "smooth" : "flat");
-  const auto unitOf = [](const QuantityInfo& info) { return *info.unit == 0 ? "" : std::string(" ") + info.unit; };
+  const auto unit_of = [](const QuantityInfo& info) { return *info.unit == 0 ? "" : std::string(" ") + info.unit; };
   for (std::size_t i = 0; i < kNumbers; ++i) {
     const double value = m.*kMaterialNumbers[i];
     const QuantityInfo& info = kQuantityInfo[i];
     if (value != info.otherwise || info.quantity == Quantity::kStiffness)
-      fmt::print(", {} {:.4g}{}", plainName(info), value, unitOf(info));
+      fmt::print(", {} {:.4g}{}", plainName(info), value, unit_of(info));
   }
   fmt::print("\n");
   for (std::size_t i = 0; i < kNumbers; ++i)
-    printTexture(model, m.textures[i], plainName(kQuantityInfo[i]), unitOf(kQuantityInfo[i]));
+    printTexture(model, m.textures[i], plainName(kQuantityInfo[i]), unit_of(kQuantityInfo[i]));
   printTexture(model, m.textureOf(Quantity::kHeight), "height", " m");
   // The default device: 0.5 N s/m at 1 kHz.
   const double curvature = bumpCurvature_per_m(snapshot, number);
@@ -62,8 +63,7 @@ struct Totals {
   void add(const Shape& shape) {
     const Model& model = shape.model;
     const IndexStats stats = shape.index->stats();
-    triangles +=
-        shape.source && shape.source->kind() == PrimitiveKind::kTriangle ? shape.elements() : model.triangles.size();
+    triangles += trianglesOf(shape);
     segments += model.segments.size();
     points += shape.source && shape.source->kind() == PrimitiveKind::kPoint ? shape.elements() : model.points.size();
     vertices += model.positions.size();
@@ -111,24 +111,24 @@ void printTotals(const Totals& all, const Snapshot& snapshot) {
 void printParts(const Snapshot& snapshot) {
   std::size_t parts = 0;
   for (const Instance& instance : snapshot.instances) {
-    if (!instance.label || instance.shape->source || ++parts > kMostPrinted) continue;
-    fmt::print("part {}: {} triangles", instance.label->name, instance.shape->model.triangles.size());
+    if (!instance.label || instance.shape->source || ++parts > kMaxPrinted) continue;
+    fmt::print("part {}: {} triangles", printable(instance.label->name), instance.shape->model.triangles.size());
     if (instance.label->colour) fmt::print(", colour #{:06x}", packRgb(*instance.label->colour));
     fmt::print("\n");
   }
-  if (parts > kMostPrinted) fmt::print("and {} parts more\n", parts - kMostPrinted);
+  if (parts > kMaxPrinted) fmt::print("and {} parts more\n", parts - kMaxPrinted);
 }
 
 void printMaterials(const Snapshot& snapshot) {
-  constexpr std::size_t kMaxPrinted = 20;
+  constexpr std::size_t kMaxMaterials = 20;
   const std::size_t materials = snapshot.shape().model.materials.size();
-  for (std::size_t i = 0; i < std::min(materials, kMaxPrinted); ++i) printMaterial(snapshot, i);
-  if (materials > kMaxPrinted) fmt::print("and {} materials more\n", materials - kMaxPrinted);
+  for (std::size_t i = 0; i < std::min(materials, kMaxMaterials); ++i) printMaterial(snapshot, i);
+  if (materials > kMaxMaterials) fmt::print("and {} materials more\n", materials - kMaxMaterials);
 }
 
 void printBody(const RigidBody& body, const std::shared_ptr<const Shape>& shape) {
   const BodySurface& surface = body.spec.surface;
-  fmt::print("body {}: ", body.name);
+  fmt::print("body {}: ", printable(body.name));
   if (body.poses) {
     const std::shared_ptr<const Body> kept = madeBody(shape, body.spec);
     const Body& made = *kept;
@@ -147,12 +147,12 @@ void printBody(const RigidBody& body, const std::shared_ptr<const Shape>& shape)
 std::string bodyNamed(const Snapshot& snapshot, std::uint64_t key) {
   std::uint32_t number = 0;
   if (!snapshot.find(key, number) || !snapshot.instances[number].body) return "the world";
-  return snapshot.instances[number].body->name;
+  return printable(snapshot.instances[number].body->name);
 }
 
 void printJoint(const JointSpec& joint, const Snapshot& snapshot) {
   const JointForces& along = joint.along;
-  fmt::print("joint {}: {}, {} to {}", joint.name, kJointKindNames[static_cast<std::size_t>(joint.kind)],
+  fmt::print("joint {}: {}, {} to {}", printable(joint.name), kJointKindNames[static_cast<std::size_t>(joint.kind)],
              bodyNamed(snapshot, joint.body_a), bodyNamed(snapshot, joint.body_b));
   const bool turns = joint.kind == JointKind::kHinge;
   if (std::isfinite(along.low) || std::isfinite(along.high))
@@ -166,16 +166,16 @@ void printJoint(const JointSpec& joint, const Snapshot& snapshot) {
 
 void printJoints(const Snapshot& snapshot) {
   const std::vector<JointSpec>& joints = snapshot.mechanics.joints;
-  for (std::size_t i = 0; i < std::min(joints.size(), kMostPrinted); ++i) printJoint(joints[i], snapshot);
-  if (joints.size() > kMostPrinted) fmt::print("and {} joints more\n", joints.size() - kMostPrinted);
+  for (std::size_t i = 0; i < std::min(joints.size(), kMaxPrinted); ++i) printJoint(joints[i], snapshot);
+  if (joints.size() > kMaxPrinted) fmt::print("and {} joints more\n", joints.size() - kMaxPrinted);
 }
 
 void printBodies(const Snapshot& snapshot) {
   std::size_t bodies = 0;
   for (const Instance& instance : snapshot.instances) {
-    if (instance.body && ++bodies <= kMostPrinted) printBody(*instance.body, instance.shape);
+    if (instance.body && ++bodies <= kMaxPrinted) printBody(*instance.body, instance.shape);
   }
-  if (bodies > kMostPrinted) fmt::print("and {} bodies more\n", bodies - kMostPrinted);
+  if (bodies > kMaxPrinted) fmt::print("and {} bodies more\n", bodies - kMaxPrinted);
   if (bodies == 0) return;
   const Vec3& gravity = snapshot.mechanics.gravity_m_s2;
   fmt::print("gravity:    {:.6g} {:.6g} {:.6g} m/s^2\n", gravity.x(), gravity.y(), gravity.z());
@@ -193,6 +193,15 @@ void printHeights(const HeightField& field) {
              field.error_m());
 }
 
+// triangles() estimates them.
+std::uint64_t countTriangles(const IsoSurface& surface) {
+  std::uint64_t count = 0;
+  surface.cells().forEach([&](const IsoCell& cell) {
+    for (unsigned n = 0; n < cell.triangles->count; ++n) count += exists(cell, n) ? 1 : 0;
+  });
+  return count;
+}
+
 // An edge of a cell has the surface where linear interpolation has it; a face of a triangle is off by about as much
 // again.
 void printVolume(const IsoSurface& surface) {
@@ -202,8 +211,8 @@ void printVolume(const IsoSurface& surface) {
   fmt::print("volume:     {} x {} x {} samples of {}, {:.6g} x {:.6g} x {:.6g} m apart, values from {:.6g} to {:.6g}\n",
              grid.side(0), grid.side(1), grid.side(2), nameOf(grid.samples().kind()), axes.col(0).norm(),
              axes.col(1).norm(), axes.col(2).norm(), range.low, range.high);
-  fmt::print("            surface at {:.6g}, matter {}; about {} triangles, within {:.3g} m of the trilinear surface\n",
-             surface.iso().value, surface.iso().solid == SolidSide::kAbove ? "above" : "below", surface.triangles(),
+  fmt::print("            surface at {:.6g}, matter {}; {} triangles, within {:.3g} m of the trilinear surface\n",
+             surface.iso().value, surface.iso().solid == SolidSide::kAbove ? "above" : "below", countTriangles(surface),
              surface.error_m());
   fmt::print("            {:.1f} MB, {:.2f} bytes a sample\n", 1e-6 * static_cast<double>(surface.volume()->bytes()),
              static_cast<double>(surface.volume()->bytes()) / static_cast<double>(grid.count()));
@@ -253,9 +262,9 @@ void printSnaps(const Snapshot& snapshot) {
   for (const PlacedSnap& placed : snapshot.snaps) {
     const Instance& instance = snapshot.instances[placed.instance];
     const SnapSpec& snap = (*instance.snaps)[placed.number];
-    fmt::print("snap {}: {}, from {:.4g} mm to {:.4g} N{}{}\n", snap.name,
+    fmt::print("snap {}: {}, from {:.4g} mm to {:.4g} N{}{}\n", printable(snap.name),
                placeOf(snap.points, snap.normal.has_value()), 1e3 * snap.capture_m, snap.release_N,
-               instance.body ? ", of body " : "", instance.body ? instance.body->name : "");
+               instance.body ? ", of body " : "", instance.body ? printable(instance.body->name) : "");
   }
 }
 
@@ -263,20 +272,20 @@ void printFields(const Snapshot& snapshot) {
   for (const PlacedField& placed : snapshot.fields) {
     const Instance& instance = snapshot.instances[placed.instance];
     const FieldSpec& field = (*instance.fields)[placed.number];
-    fmt::print("field {}: {} of a {}, within {:.4g} mm", field.name,
+    fmt::print("field {}: {} of a {}, within {:.4g} mm", printable(field.name),
                kFieldKindNames[static_cast<std::size_t>(field.kind)], placeOf(field.points, field.normal.has_value()),
                1e3 * field.reach_m);
     if (field.force_N > 0) fmt::print(", {:.4g} N", field.force_N);
     if (field.stiffness_N_m > 0) fmt::print(", {:.4g} N/m", field.stiffness_N_m);
     if (field.damping_Ns_m > 0) fmt::print(", {:.4g} N s/m", field.damping_Ns_m);
-    fmt::print("{}{}\n", instance.body ? ", of body " : "", instance.body ? instance.body->name : "");
+    fmt::print("{}{}\n", instance.body ? ", of body " : "", instance.body ? printable(instance.body->name) : "");
   }
 }
 
 void print(const Snapshot& snapshot) {
   Totals all;
   for (const Instance& instance : snapshot.instances) all.add(*instance.shape);
-  fmt::print("name:       {}\n", snapshot.name);
+  fmt::print("name:       {}\n", printable(snapshot.name));
   printTotals(all, snapshot);
   printReading(all.reading);
   printParts(snapshot);

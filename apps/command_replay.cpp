@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <span>
 
+#include "base/error.h"
 #include "commands.h"
 #include "io/output_file.h"
 #include "record/replay.h"
@@ -14,7 +16,7 @@ namespace hl {
 
 namespace {
 
-constexpr int kDiffers = 1;  // exit code
+constexpr int kDiffers = 1, kBadInput = 2;  // exit codes
 constexpr std::array<const char*, 5> kStates{"off", "arming", "on", "fault", "waiting"};
 
 class CsvFile {
@@ -58,6 +60,8 @@ class CsvFile {
   Vec3 last_finger_ = Vec3::Zero();
 };
 
+bool hasNothing(const ReplayReport& report) { return report.steps + report.ticks == 0; }
+
 void print(const std::string& file, const ReplayReport& report) {
   fmt::print("{}: {} of {:.3f} s, {}, HL {}\n", file, report.black_box ? "black box" : "session",
              report.last_s - report.first_s, report.label.empty() ? report.device : report.label + ", " + report.device,
@@ -81,7 +85,7 @@ void print(const std::string& file, const ReplayReport& report) {
     fmt::print("differs:    at {} {}, {:.6f} s: {}\n", report.difference->what, report.difference->number,
                report.difference->time_s, report.difference->text);
   } else {
-    fmt::print("reproduced: bit for bit\n");
+    fmt::print("reproduced: {}\n", hasNothing(report) ? "nothing, as it has no whole step" : "bit for bit");
   }
 }
 
@@ -90,12 +94,17 @@ void tell(const std::string& file, const ReplayReport& report) {
   std::fflush(stdout);
 }
 
+void demandSame(std::span<const ReplayReport> reports) {
+  const auto differs = [](const ReplayReport& report) { return report.difference.has_value(); };
+  if (std::any_of(reports.begin(), reports.end(), differs)) throw CLI::RuntimeError(kDiffers);
+  if (std::any_of(reports.begin(), reports.end(), hasNothing)) throw CLI::RuntimeError(kBadInput);
+}
+
 // Of several devices, whose hands may be at the same bodies.
 void runTogether(const std::vector<std::string>& files) {
   const std::vector<ReplayReport> reports = replayTogether(files);
   for (std::size_t i = 0; i < files.size(); ++i) tell(files[i], reports[i]);
-  const auto differs = [](const ReplayReport& report) { return report.difference.has_value(); };
-  if (std::any_of(reports.begin(), reports.end(), differs)) throw CLI::RuntimeError(kDiffers);
+  demandSame(reports);
 }
 
 void run(const std::string& file, const std::string& csv_path) {
@@ -107,7 +116,7 @@ void run(const std::string& file, const std::string& csv_path) {
   });
   if (csv) csv->close();
   tell(file, report);
-  if (report.difference) throw CLI::RuntimeError(kDiffers);
+  demandSame({&report, 1});
 }
 
 }  // namespace

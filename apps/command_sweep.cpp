@@ -64,7 +64,7 @@ SweepRules sweepRules() {
     }
     return {};
   };
-  rules.most_seed = kMostSeed;
+  rules.most_seed = kMaxSeed;
   return rules;
 }
 
@@ -93,13 +93,13 @@ std::string traceLine(const SweepRun& run, const FleetTask& task) {
 }
 
 void printFailures(const SweepRun& run, const FleetProgress& progress) {
-  constexpr std::size_t kMostTold = 10;
-  for (std::size_t i = 0; i < std::min(kMostTold, progress.failures.size()); ++i) {
+  constexpr std::size_t kMaxTold = 10;
+  for (std::size_t i = 0; i < std::min(kMaxTold, progress.failures.size()); ++i) {
     const auto& [task, why] = progress.failures[i];
     fmt::print(stderr, "failed: {}: {}\n", traceLine(run, run.plan.tasks[task]), why);
   }
-  if (progress.failed > kMostTold)
-    fmt::print(stderr, "and {} more: the column failure of the table has all\n", progress.failed - kMostTold);
+  if (progress.failed > kMaxTold)
+    fmt::print(stderr, "and {} more: the column failure of the table has all\n", progress.failed - kMaxTold);
 }
 
 void listTasks(const SweepRun& run) {
@@ -213,7 +213,7 @@ SweepPart partOf(const std::string& text) {
   return part;
 }
 
-constexpr int kMostJobs = 4096, kMostParts = 1'000'000;
+constexpr int kMaxJobs = 4096, kMaxParts = 1'000'000;
 
 void addSlurmOptions(CLI::App& command, SweepCall& call) {
   constexpr const char* kGroup = "Slurm";
@@ -222,7 +222,7 @@ void addSlurmOptions(CLI::App& command, SweepCall& call) {
       ->needs(slurm)
       ->group(kGroup);
   command.add_option("--parts", call.parts, "jobs in the array, at most")
-      ->check(CLI::Range(1, kMostParts))
+      ->check(CLI::Range(1, kMaxParts))
       ->needs(slurm)
       ->capture_default_str()
       ->group(kGroup);
@@ -245,7 +245,7 @@ void addSweepCommand(CLI::App& app) {
   command->add_option("sweep", call->file, "TOML: what to run (docs/sweeps.md)")->required();
   command->add_option("--out", call->out, "folder of results (default: SWEEP.sweep beside SWEEP.toml)");
   command->add_option("--jobs", call->jobs, "traces at a time (default: as many as there are processors)")
-      ->check(CLI::Range(1, kMostJobs));
+      ->check(CLI::Range(1, kMaxJobs));
   auto* dry_run = command->add_flag("--dry-run", call->dry_run, "list the tasks, or the calls of sbatch; run nothing");
   auto* status = command->add_flag("--status", call->status, "tell how many tasks are done; run nothing");
   addSlurmOptions(*command, *call);

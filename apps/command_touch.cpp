@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/realtime.h"
+#include "base/utf8.h"
 #include "commands.h"
 #include "file_opener.h"
 #include "force_options.h"
@@ -65,8 +66,8 @@ void printVibration(TouchSession& session) {
 }
 
 void printBeginning(const std::string& scene, const TouchSession& session) {
-  fmt::print(stderr, "{}: {} primitives; device: {}{}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n", scene,
-             session.snapshot()->primitives, headOf(session.label().name), session.deviceInfo().name,
+  fmt::print(stderr, "{}: {} primitives; device: {}{}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n",
+             printable(scene), session.snapshot()->primitives, headOf(session.label().name), session.deviceInfo().name,
              session.servoRate_Hz(), session.workspace().world_per_device);
   if (!session.grant().why.empty())
     fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
@@ -136,6 +137,7 @@ TouchServerSettings serverSettings(const TouchOptions& options, std::vector<Name
 void runTouch(TouchOptions options) {
   const std::vector<NamedDevice> devices = devicesOf(options.devices);
   requireRecordable(options, devices);
+  options.scene.opens_files = options.upload == "on";
   const auto snapshot = loadSnapshot(options.scene);
   const bool shade_untold = applyToSession(options);
   // hl record has all of the session in its file.

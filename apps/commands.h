@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -38,6 +39,7 @@ struct SceneOptions {
   bool surfels = false;        ///< of clouds, in place of points
   double surfel_reach = 0.75;  ///< in spacings
   CadMeshing cad;              ///< of CAD files
+  bool opens_files = false;    ///< others, later on
   bool operator==(const SceneOptions&) const = default;
 };
 
@@ -54,14 +56,25 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
 
 /// What was skipped, and shapes of bodies that are far from their meshes; one line each. Throws hl::Error.
 std::vector<std::string> warningsOf(const Snapshot& snapshot);
+/// Those of a mesh, or of a surface whose primitives are triangles.
+std::uint64_t trianglesOf(const Shape& shape);
+/// Throws hl::Error if there is no scene, and an option says how it is to be read.
+void requireNoReading(const SceneOptions& options);
 /// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error.
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options);
 /// Throws hl::Error, with `name` in front, for a model that takes more than `there_bytes` of memory to make.
 void requireMemory(const SceneModel& scene, const std::string& name, std::uint64_t there_bytes);
 HierarchyKind hierarchyOf(const SceneOptions& options);
 
+/// No option of the program or of its commands takes an empty word, as an unset variable of a shell makes it.
+void refuseEmptyWords(CLI::App& app);
+
 /// CLI check: a number from `least` to `most`. NaN is none, which CLI::Range lets pass.
 CLI::Validator within(double least, double most);
+/// The same: a whole number.
+CLI::Validator whole(std::uint64_t least, std::uint64_t most);
+/// The same: any finite number.
+CLI::Validator finite();
 /// The same: a finite number above zero.
 CLI::Validator positive();
 /// What this throws hl::Error for is refused, with its words.

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "base/error.h"
 #include "base/machine_memory.h"
 #include "base/plain_file.h"
+#include "base/utf8.h"
 #include "bodies/scene_world.h"
 #include "builtin.h"
 #include "commands.h"
@@ -27,7 +29,8 @@ void showProgress(double fraction) {
   std::fflush(stderr);
 }
 
-bool parseNumber(const std::string& text, double& value) {
+template <typename Number>
+bool parseNumber(const std::string& text, Number& value) {
   const char* const last = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data(), last, value);
   return error == std::errc() && end == last;
@@ -75,12 +78,12 @@ void addCadOptions(CLI::App& command, CadMeshing& cad) {
   command
       .add_option("--deflection", cad.deflection_m,
                   "of a CAD file: distance in metres between its curved surfaces and the triangles made of them")
-      ->check(within(kLeastDeflection_m, kMostDeflection_m))
+      ->check(within(kMinDeflection_m, kMaxDeflection_m))
       ->capture_default_str();
   command
       .add_option("--deflection-angle", cad.angle_rad,
                   "of a CAD file: largest angle in radians between neighbouring pieces of a curve")
-      ->check(within(kLeastAngle_rad, kMostAngle_rad))
+      ->check(within(kMinAngle_rad, kMaxAngle_rad))
       ->capture_default_str();
 }
 
@@ -92,7 +95,8 @@ void addReadingOptions(CLI::App& command, SceneOptions& options) {
       .add_option("--iso", options.iso,
                   "value at the surface of a volume, or several as in --iso=-300,400: in CT the skin and the bones "
                   "(default: between what is empty and what is not)")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->check(finite());
   command.add_flag_function(
       "--below", [&options](std::int64_t said) { options.below = said > 0; },
       "the matter of a volume is where its values are below --iso, as of signed distances (--below=false: above, as in "
@@ -150,21 +154,50 @@ std::vector<std::string> warningsOf(const Snapshot& snapshot) {
   return warnings;
 }
 
+std::uint64_t trianglesOf(const Shape& shape) {
+  const bool counted = shape.source && shape.source->kind() == PrimitiveKind::kTriangle;
+  return counted ? shape.elements() : shape.model.triangles.size();
+}
+
+void requireNoReading(const SceneOptions& options) {
+  const SceneOptions untold;
+  const std::pair<bool, const char*> said[] = {
+      {!options.grid.empty(), "--grid"},      {!options.iso.empty(), "--iso"},
+      {options.below.has_value(), "--below"}, {options.vertical_scale > 0, "--vertical-scale"},
+      {options.surfels, "--surfels"},         {!(options.cad == untold.cad), "--deflection"}};
+  for (const auto& [is_said, name] : said) {
+    if (is_said) throw Error(std::string(name) + " says how a scene is read, and there is none: say it with --scene");
+  }
+}
+
+namespace {
+
+void requireCad(const Snapshot& snapshot, const std::string& name) {
+  for (const Instance& instance : snapshot.instances) {
+    if (instance.shape->model.reading.cad) return;
+  }
+  throw Error(name + ": there is no CAD file in it, which could have a deflection");
+}
+
+}  // namespace
+
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   LoadOptions load;
   load.progress = showProgress;
   load.cad = options.cad;
   load.grid = options.grid;
   SceneModel scene = loadScene(options.scene, load);
-  if (!options.iso.empty()) setIsoValues(scene, options.iso);
   if (options.below) setSolidSide(scene, *options.below ? SolidSide::kBelow : SolidSide::kAbove);
+  if (!options.iso.empty()) setIsoValues(scene, options.iso);  // a value may have a surface on one side only
   if (options.surfels) setSurfels(scene, options.surfel_reach);
   if (options.vertical_scale > 0) scaleHeights(scene, options.vertical_scale);
   if (options.scale > 0) scaleModel(scene, options.scale);
   if (options.fit > 0) fitModel(scene, options.fit);
   requireMemory(scene, options.scene, machineMemory_bytes());
   auto snapshot = makeSnapshot(std::move(scene), hierarchyOf(options));
-  for (const std::string& warning : warningsOf(*snapshot)) fmt::print(stderr, "{}: {}\n", options.scene, warning);
+  if (!options.opens_files && !(options.cad == CadMeshing{})) requireCad(*snapshot, options.scene);
+  for (const std::string& warning : warningsOf(*snapshot))
+    fmt::print(stderr, "{}: {}\n", printable(options.scene), printable(warning));
   if (snapshot->primitives == 0) throw Error(options.scene + ": nothing in it can be touched");
   return snapshot;
 }
@@ -177,6 +210,16 @@ CLI::Validator within(double least, double most) {
             return good ? std::string() : "'" + text + "' is not a number from " + range;
           },
           range};
+}
+
+CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
+  const std::string range = fmt::format("{} to {}", least, most);
+  return {[least, most, range](const std::string& text) {
+            std::uint64_t value = 0;
+            const bool good = parseNumber(text, value) && value >= least && value <= most;
+            return good ? std::string() : "'" + text + "' is not a whole number from " + range;
+          },
+          most > std::numeric_limits<std::uint16_t>::max() ? fmt::format("from {}", least) : range};
 }
 
 std::string noneOf(const std::string& text, const std::string& words) { return "'" + text + "' is none of " + words; }
@@ -212,6 +255,23 @@ std::string told(const CLI::ParseError& error) {
   const std::size_t option = words.find(" -");
   if (option == words.npos) return "'" + words.substr(1) + "' is too much here";
   return "there is no option '" + words.substr(option + 1, words.find(' ', option + 1) - option - 1) + "' here";
+}
+
+void refuseEmptyWords(CLI::App& app) {
+  const auto check = [](const std::string& text) {
+    return text.empty() ? std::string("it is empty: say what it is, or leave it out") : std::string();
+  };
+  for (CLI::Option* option : app.get_options()) option->check(CLI::Validator(check, ""));
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) refuseEmptyWords(*command);
+}
+
+CLI::Validator finite() {
+  return {[](const std::string& text) {
+            double value = 0;
+            const bool good = parseNumber(text, value) && std::isfinite(value);
+            return good ? std::string() : "'" + text + "' is not a number";
+          },
+          ""};
 }
 
 CLI::Validator positive() {

@@ -14,7 +14,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kLeastField = 10'000, kMostMesh = 1'000'000;
+constexpr std::size_t kMinField = 10'000, kMaxFieldMesh = 1'000'000;
 constexpr double kFieldSide_m = 0.2, kBytesOfTriangle = 2;
 
 // The same triangles as a mesh.
@@ -39,13 +39,13 @@ void benchField(SurfaceBench& bench, BenchSurface surface, const Make& make) {
 
 void benchFields(SurfaceBench& bench) {
   const std::size_t most = bench.options().most;
-  for (std::size_t size = std::min(kLeastField, most); size <= most; size *= 10) {
+  for (std::size_t size = std::min(kMinField, most); size <= most; size *= 10) {
     const auto triangles = static_cast<double>(size);
     needMemory(kBytesOfTriangle * triangles, fmt::format("a field of {} triangles", size));
     BenchSurface surface{fmt::format("field:terrain:{}", size), 0.5 * triangles, 0, 0};
     surface.cell_m = kFieldSide_m / std::sqrt(surface.stored);
     benchField(bench, surface, [&] { return makeSnapshot(alone("field", makeTerrainField(size))); });
-    if (size > kMostMesh) continue;
+    if (size > kMaxFieldMesh) continue;
     surface.name += " as mesh";
     benchField(bench, surface, [&] { return makeSnapshot(meshOf(*makeTerrainField(size))); });
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "commands.h"
 #include "io/load_scene_file.h"
 #include "io/load_sent.h"
@@ -16,13 +17,13 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostWarnings = 5;  // that a page is told
+constexpr std::size_t kMaxWarnings = 5;  // that a page is told
 
 std::string answerOf(const Snapshot& scene, std::span<const std::string> told, double world_per_device) {
-  std::size_t triangles = 0;
-  for (const Instance& instance : scene.instances) triangles += instance.shape->model.triangles.size();
+  std::uint64_t triangles = 0;
+  for (const Instance& instance : scene.instances) triangles += trianglesOf(*instance.shape);
   std::string warnings;
-  for (std::size_t i = 0; i < std::min(told.size(), kMostWarnings); ++i)
+  for (std::size_t i = 0; i < std::min(told.size(), kMaxWarnings); ++i)
     warnings += (i > 0 ? "," : "") + jsonString(told[i]);
   return fmt::format(R"({{"name":{},"triangles":{},"primitives":{},"world_per_device":{:.6g},"warnings":[{}]}})",
                      jsonString(scene.name), triangles, scene.primitives, world_per_device, warnings);
@@ -57,9 +58,10 @@ std::string FileOpener::open(int descriptor, const std::string& name) {
   TouchSession& session = touch_.device();
   if (smooth_) shade(session, !isSceneFile("scene" + sentEndingOf(name)));
   const double scale = session.workspace().world_per_device;
-  fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", name, scene->primitives, scale);
+  fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", printable(name),
+             scene->primitives, scale);
   const std::vector<std::string> warnings = warningsOf(*scene);
-  for (const std::string& warning : warnings) fmt::print(stderr, "{}: {}\n", name, warning);
+  for (const std::string& warning : warnings) fmt::print(stderr, "{}: {}\n", printable(name), printable(warning));
   return answerOf(*scene, warnings, scale);
 }
 

@@ -56,14 +56,14 @@ void setDeadMan(ServoOptions& options, const std::string& text) {
 }
 
 void setServoRate(ServoRate& rate, const std::string& text) {
-  constexpr double kLeast_Hz = 100, kMost_Hz = 10'000;
+  constexpr double kMin_Hz = 100, kMax_Hz = 10'000;
   rate = {};
   if (text == "highest") {
     rate.highest = true;
     return;
   }
   const std::vector<double> numbers = numbersOf(text);
-  if (numbers.size() != 1 || numbers[0] < kLeast_Hz || numbers[0] > kMost_Hz)
+  if (numbers.size() != 1 || numbers[0] < kMin_Hz || numbers[0] > kMax_Hz)
     throw CLI::ValidationError("--servo-rate", "'" + text + "' is neither 100 to 10000 nor highest");
   rate.given_Hz = numbers[0];
 }
@@ -111,7 +111,7 @@ void addEffectOptions(CLI::App& app, ServoOptions& options) {
       ->check(CLI::IsMember({"on", "off"}))
       ->option_text("on|off (default: on)")
       ->group(kGroup);
-  app.add_flag("--passivity-guard", options.guard.on, "damp a contact that gives more energy than it has taken")
+  app.add_flag("--passivity-guard", options.passivity.on, "damp a contact that gives more energy than it has taken")
       ->group(kGroup);
 }
 

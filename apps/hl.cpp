@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "commands.h"
 #include "file_opener.h"
 #include "io/load_sent.h"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   hl::addStabilityCommand(app);
   hl::addSweepCommand(app);
   hl::addKeysCommand(app);
+  hl::refuseEmptyWords(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
@@ -47,16 +49,17 @@ int main(int argc, char** argv) {
     return failed.get_exit_code();
   } catch (const CLI::ParseError& error) {
     const bool unknown = argc > 1 && app.get_subcommands().empty();
-    fmt::print(stderr, "hl: {} (try --help)\n", unknown ? unknownCommand(app, argv[1]) : hl::told(error));
+    fmt::print(stderr, "hl: {} (try --help)\n",
+               hl::printable(unknown ? unknownCommand(app, argv[1]) : hl::told(error)));
     return 2;
   } catch (const hl::Error& error) {
-    fmt::print(stderr, "hl: {}\n", error.what());
+    fmt::print(stderr, "hl: {}\n", hl::printable(error.what()));
     return 2;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "hl: not enough memory for this scene\n");
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hl: unexpected failure: {}\n", error.what());
+    fmt::print(stderr, "hl: unexpected failure: {}\n", hl::printable(error.what()));
     return 1;
   }
   return 0;

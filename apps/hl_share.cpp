@@ -55,7 +55,7 @@ class Sending {
  private:
   hl::ShareOutbox& out_;
   std::uint64_t known_bytes_ = 0;  // that wait, as the server knows it
-  std::string buffer_ = std::string(hl::kMostShareMessage_bytes + 1, '\0');
+  std::string buffer_ = std::string(hl::kMaxShareMessage_bytes + 1, '\0');
 };
 
 void serve(const hl::ShareTask& task) {

@@ -20,12 +20,12 @@ namespace {
 // A corrupt file may ask for any memory. A leaf of 8 x 8 x 8 voxels takes 2 KB here, and in the file no less than some
 // 30 bytes, if all its voxels have one value; OpenVDB keeps its parts beside.
 hl::IsolationLimits limitsOf(int file) {
-  constexpr std::size_t kLeast_bytes = std::size_t{1} << 30, kForEachByte = 256;
+  constexpr std::size_t kMin_bytes = std::size_t{1} << 30, kForEachByte = 256;
   hl::IsolationLimits limits;
   struct stat status {};
   const std::size_t size = fstat(file, &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
   if (size < limits.memory_bytes / kForEachByte)
-    limits.memory_bytes = std::min(limits.memory_bytes, kLeast_bytes + kForEachByte * size);
+    limits.memory_bytes = std::min(limits.memory_bytes, kMin_bytes + kForEachByte * size);
   return limits;
 }
 

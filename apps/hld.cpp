@@ -26,6 +26,7 @@ namespace {
 
 std::shared_ptr<const Snapshot> sceneOf(const HldOptions& options) {
   if (!options.scene.scene.empty()) return loadSnapshot(options.scene);
+  requireNoReading(options.scene);
   return makeSnapshot(std::vector<Instance>{},
                       options.share.world.empty() ? "the clients' world" : "the world " + options.share.world);
 }
@@ -155,15 +156,6 @@ std::string told(const CLI::App& app, const CLI::ParseError& error) {
   return of_file ? text + ", on the command line or in " + config->as<std::string>() : text;
 }
 
-// As an unset variable of a shell makes it: without this check a token file that has no name would be none.
-void refuseEmpty(const CLI::App& app) {
-  for (const CLI::Option* option : app.get_options()) {
-    const auto& words = option->results();
-    if (std::find(words.begin(), words.end(), "") != words.end())
-      throw hl::Error(option->get_name() + " is empty: say what it is, or leave it out");
-  }
-}
-
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
@@ -172,23 +164,23 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("hld ") + HL_VERSION);
   hl::HldOptions options;
   hl::addHldOptions(app, options);
+  hl::refuseEmptyWords(app);
   try {
     app.parse(argc, argv);
-    refuseEmpty(app);
     hl::serve(options);
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "hld: {} (try --help)\n", told(app, error));
+    fmt::print(stderr, "hld: {} (try --help)\n", hl::printable(told(app, error)));
     return 2;
   } catch (const hl::Error& error) {
-    fmt::print(stderr, "hld: {}\n", error.what());
+    fmt::print(stderr, "hld: {}\n", hl::printable(error.what()));
     return 2;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "hld: not enough memory for this scene\n");
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hld: unexpected failure: {}\n", error.what());
+    fmt::print(stderr, "hld: unexpected failure: {}\n", hl::printable(error.what()));
     return 1;
   }
   return 0;

@@ -51,19 +51,23 @@ void addHandOptions(CLI::App& app, HldOptions& options) {
 }
 
 // Less has no room for one session with one triangle.
-constexpr std::uint64_t kLeastMemory_bytes = 1'000'000;
+constexpr std::uint64_t kMinMemory_bytes = 1'000'000;
+// Threads: more than there are processors are of no use.
+constexpr std::uint32_t kMaxWorkers = 256;
 
 template <typename Number>
-void addLimit(CLI::App& app, const std::string& name, Number& limit, const std::string& what, Number least = 0) {
-  CLI::Option* const option = app.add_option("--limit-" + name, limit, what)
-                                  ->check(std::is_integral_v<Number> ? positive() : within(kMinNumber, kMaxNumber))
-                                  ->capture_default_str()
-                                  ->group("Limits");
-  if (least > 0) option->check(CLI::Range(least, std::numeric_limits<Number>::max()));
+void addLimit(CLI::App& app, const std::string& name, Number& limit, const std::string& what, Number least = 1,
+              Number most = std::numeric_limits<Number>::max()) {
+  CLI::Option* const option = app.add_option("--limit-" + name, limit, what)->capture_default_str()->group("Limits");
+  if constexpr (std::is_integral_v<Number>) {
+    option->check(whole(least, most));
+  } else {
+    option->check(within(kMinNumber, kMaxNumber));
+  }
 }
 
 void addLimitOptions(CLI::App& app, Limits& limits) {
-  addLimit(app, "message-bytes", limits.message_bytes, "bytes of one message");
+  addLimit(app, "message-bytes", limits.message_bytes, "bytes of one message", limits.open_bytes);
   addLimit(app, "messages", limits.messages_Hz, "messages a second of one client");
   addLimit(app, "objects", limits.objects, "objects of one client");
   addLimit(app, "scene-bytes", limits.scene_bytes, "bytes of memory for the shapes of one client");
@@ -77,12 +81,12 @@ void addLimitOptions(CLI::App& app, Limits& limits) {
       app, "memory-bytes", limits.memory_bytes,
       "bytes of memory for all scenes and whatever else clients and pages make the server keep; the program itself "
       "takes about 100 MB beside",
-      kLeastMemory_bytes);
+      kMinMemory_bytes);
   addLimit(app, "kept", limits.kept, "clients that have gone and whose objects stay");
   addLimit(app, "sessions", limits.sessions, "clients at once");
   addLimit(app, "pages", limits.pages, "viewer pages at once");
   addLimit(app, "connections", limits.connections, "sockets at once");
-  addLimit(app, "workers", limits.workers, "threads that decode messages");
+  addLimit(app, "workers", limits.workers, "threads that decode messages", 1U, kMaxWorkers);
   addLimit(app, "handshake", limits.handshake_s, "seconds for TLS, the upgrade and Open, each");
   addLimit(app, "idle", limits.idle_s, "seconds of silence after which a client has gone");
   addLimit(app, "write", limits.write_s, "seconds after which a client that reads nothing is ended");

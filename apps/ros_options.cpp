@@ -12,7 +12,7 @@ namespace hl {
 
 namespace {
 
-constexpr double kMostStates_Hz = 1000;
+constexpr double kMaxStates_Hz = 1000;
 
 // "none", or the number of a button.
 std::string setClutch(const std::string& said, TeleopSettings& teleop) {
@@ -73,7 +73,7 @@ void addRosOptions(CLI::App& app, RosOptions& options) {
       ->type_name("NAMESPACE")
       ->group("ROS 2");
   app.add_option("--ros-rate", options.rate_Hz, "samples a second of each measured topic")
-      ->check(within(1, kMostStates_Hz))
+      ->check(within(1, kMaxStates_Hz))
       ->needs("--ros")
       ->capture_default_str()
       ->group("ROS 2");

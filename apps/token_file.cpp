@@ -5,20 +5,19 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "http/access.h"
 
 namespace hl {
 
 std::string readTokenFile(const std::string& file) {
-  constexpr std::size_t kMost_bytes = 4096;  // a device has no end
+  constexpr std::size_t kMax_bytes = 4096;  // a device has no end
   std::ifstream in(file, std::ios::binary);
-  std::string line(kMost_bytes, ' ');
+  std::string line(kMax_bytes, ' ');
   in.read(line.data(), static_cast<std::streamsize>(line.size()));
   if (in.gcount() <= 0) throw Error(file + ": no token can be read from it");
   line.resize(std::min(static_cast<std::size_t>(in.gcount()), line.find('\n')));
-  constexpr const char* kSpace = " \t\r";
-  line.erase(0, line.find_first_not_of(kSpace));
-  line.erase(line.find_last_not_of(kSpace) + 1);
+  line = std::string(trimmed(line));
   try {
     checkToken(line);
   } catch (const Error& error) {

@@ -16,10 +16,10 @@ void addPathOptions(CLI::App& command, TraceOptions& options) {
   command
       .add_option("--tremor", options.tremor_m,
                   "root mean square in metres of a hand's tremor, 8 to 12 Hz, that is added to the path on each axis")
-      ->check(within(0, kMostTremor_m))
+      ->check(within(0, kMaxTremor_m))
       ->capture_default_str();
   command.add_option("--seed", options.seed, "which tremor: each number draws another")
-      ->check(CLI::Range(std::int64_t{0}, kMostSeed))
+      ->check(CLI::Range(std::int64_t{0}, kMaxSeed))
       ->capture_default_str();
 }
 

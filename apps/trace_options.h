@@ -11,14 +11,14 @@
 namespace hl {
 
 /// The largest number up to which doubles, in which others may read a seed, have all.
-inline constexpr std::int64_t kMostSeed = std::int64_t{1} << 53;
+inline constexpr std::int64_t kMaxSeed = std::int64_t{1} << 53;
 
 struct TraceOptions {
   SceneOptions scene;
   std::string path;
   TraceSettings settings;
   double tremor_m = 0;
-  std::int64_t seed = 0;  ///< 0 to kMostSeed
+  std::int64_t seed = 0;  ///< 0 to kMaxSeed
 };
 
 /// SCENE, --path and all that changes the result. `options` must outlive `command`.

@@ -12,7 +12,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::uint32_t kLeastSide = 64;
+constexpr std::uint32_t kMinSide = 64;
 constexpr double kVolumeSide_m = 0.16, kBytesOfSample = 3;
 
 double cubed(std::uint32_t side) { return static_cast<double>(side) * side * side; }
@@ -34,7 +34,7 @@ void benchIso(SurfaceBench& bench, const SceneSurface& of, BenchSurface surface)
 
 void benchVolumes(SurfaceBench& bench) {
   const auto most = static_cast<double>(bench.options().most);
-  std::uint32_t side = kLeastSide;
+  std::uint32_t side = kMinSide;
   while (cubed(side) > most) side /= 2;
   for (; cubed(side) <= most; side *= 2) {
     BenchSurface surface{fmt::format("ct:phantom:{}", side), cubed(side), 0, 0};

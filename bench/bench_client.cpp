@@ -3,6 +3,7 @@
 //
 //   bench_client [URL] [--objects N] [--seconds S]      URL: inproc: (default), hl://HOST:PORT, hls://...
 //   bench_client URL --only replace                     only replaces the mesh, ten times a second
+//   bench_client URL --only depth --seconds 60          pictures of a depth camera, and as long without
 #include <fmt/core.h>
 #include <hl/hl.h>
 
@@ -13,6 +14,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "depth_session.h"
 
 namespace {
 
@@ -212,7 +215,7 @@ int main(int argc, char** argv) {
   app.add_option("--objects", objects, "moving objects")->check(CLI::Range(1, 100'000))->capture_default_str();
   app.add_option("--side", side, "the mesh has 2 SIDE^2 triangles")->check(CLI::Range(1, 2000))->capture_default_str();
   app.add_option("--seconds", seconds, "of frames, and of states")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--only", only, "one measurement in place of all")->check(CLI::IsMember({"replace"}));
+  app.add_option("--only", only, "one measurement in place of all")->check(CLI::IsMember({"replace", "depth"}));
   CLI11_PARSE(app, argc, argv);
   HLcontext* context = hlCreateContext(url.c_str());
   if (context == nullptr) {
@@ -220,8 +223,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   hlMakeCurrent(context);
+  if (only == "depth" && !hl::bench::measureDepthSession(seconds)) fail("no picture was shown");
   if (only.empty()) measureMesh(side);
-  measureReplacements(side, seconds);
+  if (only != "depth") measureReplacements(side, seconds);
   if (only.empty()) measureBending(side, seconds);
   if (only.empty()) measureFrames(objects, seconds);
   if (only.empty()) measureStates(seconds);

@@ -23,27 +23,38 @@ if(HL_SANITIZE)
   endif()
 endif()
 
-# hl_light(): the code of this folder waits for sockets, files and people, or calls other code that does the work. The
-# sanitizers take twice as long to compile it with optimisation, and their tests gain nothing.
+# hl_light(): the code of this folder waits for sockets, files and people, or calls other code that does the work.
+# Optimising it takes time, twice as much with sanitizers, and gains nothing.
 macro(hl_light)
   if(HL_SANITIZE)
     set(HL_LIGHT _light)
     add_compile_options(-O0)
+  else()
+    add_compile_options($<$<CONFIG:Release>:-O1>)
   endif()
 endmacro()
 
-# hl_coroutines(SOURCES...): Beast's coroutines wait too, and -O3 would cost minutes of compiling. So would
-# UndefinedBehaviorSanitizer, which looks at Boost's code for the most part: 80 s in place of 42 for page_feed.cpp.
+# Beast's coroutines wait too, and -O3 would cost minutes of compiling. So would UndefinedBehaviorSanitizer, which looks
+# at Boost's code for the most part: 80 s in place of 42 for page_feed.cpp.
+if(HL_SANITIZE MATCHES undefined)
+  set(HL_COROUTINES -O0 -fno-sanitize=undefined)
+elseif(HL_SANITIZE)
+  # GCC warns of Asio's fences: tests/tsan_suppressions.txt knows them.
+  set(HL_COROUTINES -O0 $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
+else()
+  set(HL_COROUTINES -O1)
+endif()
+
+# hl_coroutines(SOURCES...): the sources of a target that are coroutines.
 function(hl_coroutines)
-  set_source_files_properties(${ARGN} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # made with other options
-  if(HL_SANITIZE MATCHES undefined)
-    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-O0;-fno-sanitize=undefined")
-  elseif(HL_SANITIZE)
-    # GCC warns of Asio's fences: tests/tsan_suppressions.txt knows them.
-    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-O0;$<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>")
-  else()
-    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O1)
-  endif()
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${HL_COROUTINES}")
+endfunction()
+
+# hl_coroutine_target(TARGET): most of its sources are coroutines, so that they are compiled together.
+function(hl_coroutine_target target)
+  set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # made with other options
+  # GCC takes sources that are compiled together for headers.
+  target_compile_options(${target} PRIVATE ${HL_COROUTINES} $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 function(hl_library name)
@@ -75,7 +86,8 @@ function(hl_test_headers name)
 endfunction()
 
 # hl_test(name SOURCES ... LINK ...): one GoogleTest program; ctest runs each of its cases on its own. Their label is
-# the name of the folder.
+# the name of the folder. A folder has one program: its sources are compiled together, so each has a namespace named as
+# the file.
 function(hl_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_TIMEOUT)

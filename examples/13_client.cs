@@ -61,8 +61,11 @@ static class Client {
             Console.Error.WriteLine("13_client: " + client.Reason);
             return 1;
         }
+        bool connected = client.Status == ClientStatus.Open;
         client.Dispose();
         client.Ended.Wait();
-        return 0;
+        if (connected) return 0;
+        Console.Error.WriteLine("13_client: no server has answered within {0} s", seconds);
+        return 1;
     }
 }

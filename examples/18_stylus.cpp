@@ -63,7 +63,7 @@ int main(int argc, char** argv) try {
   const std::string url = argc > 1 ? argv[1] : "inproc:";
   const double seconds = argc > 2 ? std::atof(argv[2]) : 20;
   const hl::Context context(url);
-  if (hl::get(HL_DEVICE_WRIST) != HL_TRUE) std::puts("this device does not tell how its stylus is turned");
+  if (hl::get(HL_DEVICE_WRIST) == 0) std::puts("this device does not tell how its stylus is turned");
   hlWorkspaced(0, 0.02, 0, 1);
   drawSheet();
   hlFinish();

@@ -13,7 +13,7 @@ namespace {
 using namespace hl;
 
 constexpr std::int64_t kMs = 1'000'000;
-constexpr std::size_t kHead_bytes = 3, kMostPackets = 64;
+constexpr std::size_t kHead_bytes = 3, kMaxPackets = 64;
 
 struct Heard {
   std::int64_t after_ns;
@@ -23,7 +23,7 @@ struct Heard {
 std::vector<Heard> packetsOf(const std::uint8_t* data, std::size_t size) {
   std::vector<Heard> packets;
   std::size_t at = 0;
-  while (at + kHead_bytes <= size && packets.size() < kMostPackets) {
+  while (at + kHead_bytes <= size && packets.size() < kMaxPackets) {
     const std::size_t length = std::min<std::size_t>(data[at + 1] | data[at + 2] << 8, size - at - kHead_bytes);
     packets.push_back({data[at] * kMs, std::string(reinterpret_cast<const char*>(data) + at + kHead_bytes, length)});
     at += kHead_bytes + length;
@@ -49,13 +49,13 @@ void requireSound(const SharedWorld& world, std::int64_t now_ns) {
   for (const Replica& replica : world.replicas(now_ns))
     fuzz::require(replica.id != 0 && replica.pose.origin.allFinite() && replica.pose.rotation.allFinite());
   const ShareCounts counts = world.counts(now_ns);
-  fuzz::require(counts.items <= SharedWorld::kMostItems && counts.peers <= Peers::kMostPeers);
+  fuzz::require(counts.items <= SharedWorld::kMaxItems && counts.peers <= Peers::kMaxPeers);
 }
 
 void hearAll(const std::vector<Heard>& packets) {
   std::int64_t now_ns = 1000 * kMs;
   SharedWorld world({7, "fuzzer", true, "0"}, now_ns, [](const SharePacket& packet) {
-    fuzz::require(packet.bytes.size() <= kMostPacket_bytes);
+    fuzz::require(packet.bytes.size() <= kMaxPacket_bytes);
     return true;
   });
   for (const Heard& packet : packets) {

@@ -13,8 +13,8 @@ class CountingSink final : public hl::VolumeSink {
     for (const std::uint32_t side : header.side) hl::fuzz::require(side >= 2);
     left_ = hl::sizeOf(header.kind) * header.side[0] * header.side[1] * header.side[2];
     hl::fuzz::require(header.frame.axes.allFinite() && header.frame.origin.allFinite());
-    constexpr std::size_t kMost = 1 << 24;
-    if (left_ > kMost) throw hl::Error("is too large");
+    constexpr std::size_t kMax = 1 << 24;
+    if (left_ > kMax) throw hl::Error("is too large");
   }
   void samples(const void* samples, std::size_t bytes) override {
     hl::fuzz::require(announced_ && samples != nullptr && bytes <= left_);

@@ -28,8 +28,8 @@ constexpr std::size_t kMaxMember = 1'000'000'000;
 
 constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field", kScan = "ct", kCloud = "points",
                            kDepth = "depth", kSdf = "sdf";
-constexpr std::size_t kUsualField = 1'000'000, kMostField = std::min(100'000'000'000ULL, 0ULL + SIZE_MAX),
-                      kUsualScan = 161, kMostScan = 1025, kUsualCloud = 100'000, kMostCloud = 100'000'000;
+constexpr std::size_t kUsualField = 1'000'000, kMaxField = std::min(100'000'000'000ULL, 0ULL + SIZE_MAX),
+                      kUsualScan = 161, kMaxScan = 1025, kUsualCloud = 100'000, kMaxCloud = 100'000'000;
 
 struct Builtin {
   std::string_view name;
@@ -87,8 +87,8 @@ SceneModel makeField(const std::string& spec) {
     constexpr std::string_view kTerrain = ":terrain";
     const std::string_view number = rest.substr(std::min(rest.size(), kTerrain.size()));
     if (!rest.starts_with(kTerrain)) throw Error("'" + spec + "': the one generated field is field:terrain:N");
-    if (!number.empty() && (number[0] != ':' || !read(number.substr(1), kMostField, n)))
-      refuseNumber(spec, kMostField, "field:terrain:1000000");
+    if (!number.empty() && (number[0] != ':' || !read(number.substr(1), kMaxField, n)))
+      refuseNumber(spec, kMaxField, "field:terrain:1000000");
   }
   SceneModel scene;
   scene.model.name = spec;
@@ -104,8 +104,8 @@ SceneModel makePoints(const std::string& spec) {
   if (name != kSphere && name != kTerrain)
     throw Error("'" + spec + "': the generated clouds are points:sphere:N and points:terrain:N");
   std::size_t n = kUsualCloud;
-  if (second != std::string::npos && !read(std::string_view(spec).substr(second + 1), kMostCloud, n))
-    refuseNumber(spec, kMostCloud, "points:sphere:100000");
+  if (second != std::string::npos && !read(std::string_view(spec).substr(second + 1), kMaxCloud, n))
+    refuseNumber(spec, kMaxCloud, "points:sphere:100000");
   SceneModel scene;
   scene.model.name = spec;
   scene.surfaces.push_back({spec, name == kSphere ? makeSphereCloud(n) : makeTerrainCloud(n)});
@@ -119,8 +119,8 @@ SceneModel makeScan(const std::string& spec) {
   if (!rest.empty() && !rest.starts_with(kPhantom))
     throw Error("'" + spec + "': the one generated scan is ct:phantom:N");
   std::size_t n = kUsualScan;
-  if (!number.empty() && (number[0] != ':' || !read(number.substr(1), kMostScan, n) || n < 8))
-    throw Error("'" + spec + "': N must be a whole number from 8 to " + std::to_string(kMostScan) +
+  if (!number.empty() && (number[0] != ':' || !read(number.substr(1), kMaxScan, n) || n < 8))
+    throw Error("'" + spec + "': N must be a whole number from 8 to " + std::to_string(kMaxScan) +
                 ", as in ct:phantom:161");
   SceneModel scene = makePhantom(static_cast<std::uint32_t>(n));
   scene.model.name = spec;

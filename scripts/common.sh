@@ -23,6 +23,10 @@ build_jobs() {
   echo $((cores < by_memory ? cores : by_memory))
 }
 
+# What one checkout has compiled, ccache finds again for another in a folder elsewhere.
+export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
+export CCACHE_SLOPPINESS="pch_defines,time_macros,include_file_mtime,include_file_ctime"
+
 # Configures preset $1 into directory $2 when that was never done or the presets changed since.
 # CMake itself re-runs when a CMakeLists.txt changes.
 configure_preset() {

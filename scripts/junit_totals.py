@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Prints "PASSED FAILED SKIPPED" of a JUnit XML file, the one report that ctest, Vitest and Playwright all write.
 
-    scripts/junit_totals.py REPORT.xml
+    scripts/junit_totals.py [--failed] REPORT.xml
 
-Counts the test cases themselves, not the summaries, which the three fill in differently. Exit code 2 when unreadable.
+Counts the test cases themselves, not the summaries, which the three fill in differently. With --failed it prints the
+names of those that failed instead, each with the end of what it said. Exit code 2 when unreadable.
 """
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -21,14 +22,32 @@ def totals(root):
     return passed, failed, skipped
 
 
+def failures(root, most_lines=30):
+    """Of each case that failed: its name, and the last lines of what is told of it."""
+    for case in root.iter("testcase"):
+        told = [part for part in case if part.tag in ("failure", "error")]
+        if not told:
+            continue
+        texts = [text for part in [*told, *case.findall("system-out")] for text in (part.get("message"), part.text) if text]
+        yield case.get("name"), "\n".join(texts).strip().splitlines()[-most_lines:]
+
+
 def main(arguments):
-    if len(arguments) != 1 or arguments[0] in ("-h", "--help"):
+    if not arguments or arguments[0] in ("-h", "--help"):
         print(__doc__)
         return 0 if arguments else 2
+    path = arguments[-1]
     try:
-        root = ElementTree.parse(arguments[0]).getroot()
+        root = ElementTree.parse(path).getroot()
     except (OSError, ElementTree.ParseError) as error:
-        print(f"junit_totals: {arguments[0]}: {error}", file=sys.stderr)
+        print(f"junit_totals: {path}: {error}", file=sys.stderr)
+        return 2
+    if arguments[:-1] == ["--failed"]:
+        for name, lines in failures(root):
+            print(f"FAILED {name}", *lines, sep="\n  ")
+        return 0
+    if arguments[:-1]:
+        print(__doc__)
         return 2
     print(*totals(root))
     return 0

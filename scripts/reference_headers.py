@@ -108,8 +108,13 @@ def members(lines):
     return "".join(f"\n{line.rstrip()}" for line in body if "///<" in line)
 
 
+def without_detail(source):
+    """A C++ header without what is inside `namespace detail`, and its comment."""
+    return re.sub(r"(?:/// Inside[^\n]*\n)?namespace detail \{.*?\}  // namespace detail\n", "", source, flags=re.DOTALL)
+
+
 def read_cpp(name, source):
-    public = re.sub(r"/// Inside.*?\}  // namespace detail\n", "", source, flags=re.DOTALL)
+    public = without_detail(source)
     lines, entries, owner, hidden, text = public.splitlines(), [], "", False, []
     for number, line in enumerate(lines):
         comment = re.match(r"\s*///(?!<) ?(.*)", line)

@@ -7,8 +7,8 @@ export default defineConfig({
     environment: "node",
     fileParallelism: false,
     // Software graphics on a busy machine: what is waited for comes late, and only a long wait tells late from never.
-    testTimeout: 300_000,
-    hookTimeout: 120_000,
-    expect: { poll: { timeout: 30_000 } },
+    testTimeout: 600_000,
+    hookTimeout: 300_000,
+    expect: { poll: { timeout: 120_000 } },
   },
 });

@@ -28,12 +28,12 @@ double buildTimeOnOneThread_ns(const Shape& shape, HierarchyKind hierarchy) {
 // never have used, which takes longer than they do.
 double refitTime_ns(const Shape& shape) {
   constexpr std::size_t kMin = 9;
-  constexpr double kLeast_ns = 0.3e9;
+  constexpr double kMin_ns = 0.3e9;
   const auto* const tree = dynamic_cast<const WideBvh*>(shape.index.get());
   if (tree == nullptr) return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> times_ns;
   WideBvh refitted = tree->refit(shape.primitives);
-  for (double all_ns = 0; times_ns.size() < kMin || all_ns < kLeast_ns; all_ns += times_ns.back()) {
+  for (double all_ns = 0; times_ns.size() < kMin || all_ns < kMin_ns; all_ns += times_ns.back()) {
     const std::int64_t start_ns = monotonicNow_ns();
     refitted = refitted.refit(shape.primitives);
     times_ns.push_back(static_cast<double>(monotonicNow_ns() - start_ns));

@@ -92,12 +92,19 @@ HL_API const char* hlGetStringi(HLenum name, HLuint device);
  * nothing to touch afterwards. Objects, textures and the state of the calls stay. HL_INVALID_OPERATION in a definition.
  */
 HL_API void hlClear(void);
+/** The frame ends without effect, and another begins: drops all that it has drawn, defined, updated and deleted, of
+ * objects and of textures, and ends a definition that is open without effect. The state of the calls stays. For a
+ * program that cannot go on with a frame, as after an exception. */
+HL_API void hlCancelFrame(void);
 /** Ends the frame and sends it, if there is anything in it; never waits. When more than is good is on its way already
  * (HL_BUSY), or, without an error, the last frame was sent less than 1 / HL_MAX_FRAME_RATE ago or the server is still
  * building many, the frame waits here: the next
  * hlFlush, hlFinish or hlPoll sends it, together with what has been flushed since (the later world, the later
  * definitions). HL_OUT_OF_MEMORY: the frame is larger than the server takes, and is dropped. Also takes replies, so
  * that HL_REFUSED and HL_CONNECTION_LOST may show here. HL_INVALID_OPERATION in a definition.
+ *
+ * Nothing of a frame that is refused or dropped is there: neither the world nor any object, texture or deletion of it,
+ * those without a fault included. What it defined is to be defined again.
  *
  * What is drawn elsewhere than in the frame before moves there, and what has other vertices bends, in the time between
  * the last two frames, at most 100 ms: smoothly at any rate, and felt one frame late. Motion begins 2 ms after the
@@ -194,8 +201,9 @@ HL_API void hlDepthFrame(HLsizei width, HLsizei height, const HLushort* depths, 
  * HL_UNSIGNED_SHORT or HL_FLOAT) along +x, +y and +z, those along x next to each other, all 1 apart, with the middle of
  * the volume at the origin: hlScaled makes metres of them. There is no surface around a sample that equals `*missing`,
  * or is not a number; `missing` may be NULL. Normals lead out of the matter: see hlVolumeSolid. The samples are copied.
- * HL_INVALID_VALUE: fewer than two samples along an axis, no samples, or an `iso` that is not a number.
- * HL_INVALID_ENUM: another type. HL_OUT_OF_MEMORY: 1 GiB of samples or more. */
+ * The server refuses a frame with an `iso` at which there is no surface (HL_REFUSED). HL_INVALID_VALUE: fewer than two
+ * samples along an axis, no samples, or an `iso` that is not a number. HL_INVALID_ENUM: another type.
+ * HL_OUT_OF_MEMORY: 1 GiB of samples or more. */
 HL_API void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, const void* samples,
                      const HLdouble* missing, HLdouble iso);
 /** What values of volumes that are drawn next feel like: `rows` (0 .. 256) rows of three numbers, by rising values: the
@@ -254,6 +262,9 @@ HL_API void hlGenObjects(HLsizei n, HLuint* objects);
 HL_API void hlNewObject(HLuint object);
 /** Ends the definition; touchable with the next hlFlush. HL_INVALID_OPERATION: none is open. */
 HL_API void hlEndObject(void);
+/** In place of hlEndObject: nothing of the definition counts, and the object stays as it was, defined or not.
+ * HL_INVALID_OPERATION: no definition is open. */
+HL_API void hlCancelObject(void);
 /** Puts an object into the world, or into the definition that is open, placed by the matrix and with the surface and
  * name of this moment. Later definitions of it show here too. HL_INVALID_VALUE: not defined (GL ignores that).
  * HL_INVALID_OPERATION: it calls, directly or not, the object that is being defined. */
@@ -287,7 +298,8 @@ HL_API void hlVolumeIso(HLuint object, HLint surface, HLdouble iso);
  * true one the loop of force and frames may flutter: docs/tissue.md. HL_INVALID_VALUE: the object is not defined, a
  * number is out of its range. HL_INVALID_OPERATION: in a definition. */
 HL_API void hlCompliance(HLuint object, HLdouble normal, HLdouble tangential, const HLdouble* force);
-/** HL_TRUE: defined (hlEndObject has been called) and not deleted. */
+/** HL_TRUE: this program has defined it (hlEndObject has been called) and not deleted it; the server need not have
+ * taken it, see hlFlush. */
 HL_API HLboolean hlIsObject(HLuint object);
 
 /* ---- Bodies: each call of a body's object moves as a rigid body -------------------------------------------------- */
@@ -298,9 +310,9 @@ HL_API HLboolean hlIsObject(HLuint object);
  * the calls of the object stay as they are: frames may draw it again and again. Drawn with another matrix it is there
  * at once, and starts anew. A scale is part of its shape.
  * The definition draws one piece of geometry, all with the same matrix, surface and name, and calls no object; the
- * server refuses a frame with another one, or with a body that has no thickness (HL_REFUSED). Bodies need a server with
- * one device. HL_INVALID_OPERATION: no definition is open. HL_INVALID_ENUM: not such a parameter. HL_INVALID_VALUE: out
- * of its range. */
+ * server refuses a frame with another one, or with a body that has no thickness (HL_REFUSED). Bodies need a server
+ * with at most 8 devices. HL_INVALID_OPERATION: no definition is open. HL_INVALID_ENUM: not such a parameter.
+ * HL_INVALID_VALUE: out of its range. */
 HL_API void hlBodyf(HLenum parameter, HLfloat value);
 HL_API void hlBodyd(HLenum parameter, HLdouble value); /**< see hlBodyf */
 /** The same of HL_BODY_SHAPE (HL_BODY_HULL .. HL_BODY_PARTS) and HL_BODY_FIXED (HL_TRUE: what frames move, pushes
@@ -546,7 +558,7 @@ HL_API void hlGetBooleanv(HLenum name, HLboolean* values);
 HL_API void hlGetIntegerv(HLenum name, HLint* values);   /**< see hlGetBooleanv */
 HL_API void hlGetFloatv(HLenum name, HLfloat* values);   /**< see hlGetBooleanv */
 HL_API void hlGetDoublev(HLenum name, HLdouble* values); /**< see hlGetBooleanv */
-/** Writes up to `most` contacts of the last state, the one that presses hardest first, and returns how many it wrote.
+/** Writes up to `most` contacts of the last state, the one with the largest share first, and returns how many it wrote.
  * HL_INVALID_VALUE: most < 0. */
 HL_API HLsizei hlGetContacts(HLsizei most, HLcontact* contacts);
 /** Writes up to `most` hands of other servers of a shared world as the last state tells them, sorted by server, and

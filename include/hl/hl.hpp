@@ -127,9 +127,16 @@ struct [[nodiscard]] PrimitiveScope : Scope<hlEnd> {
   explicit PrimitiveScope(HLenum mode) { hlBegin(mode); }
 };
 
-/// hlNewObject(object) .. hlEndObject().
-struct [[nodiscard]] ObjectScope : Scope<hlEndObject> {
+/// hlNewObject(object) .. hlEndObject(); hlCancelObject() when an exception leaves it.
+class [[nodiscard]] ObjectScope {
+ public:
   explicit ObjectScope(HLuint object) { hlNewObject(object); }
+  ObjectScope(const ObjectScope&) = delete;
+  ObjectScope& operator=(const ObjectScope&) = delete;
+  ~ObjectScope() { std::uncaught_exceptions() > exceptions_ ? hlCancelObject() : hlEndObject(); }
+
+ private:
+  int exceptions_ = std::uncaught_exceptions();
 };
 
 /// hlPushMatrix() .. hlPopMatrix(), on the stack that is chosen then; choose another one inside only in pairs.
@@ -181,13 +188,24 @@ struct VertexArrays {
   std::size_t size() const noexcept { return vertices.size() / 3; }
 };
 
+namespace detail {
+
+// A number of elements, for the calls.
+inline HLsizei sizeOf(std::size_t count) {
+  if (count > static_cast<std::size_t>(std::numeric_limits<HLsizei>::max()))
+    throw std::invalid_argument("there must be fewer than 2^31 of each");
+  return static_cast<HLsizei>(count);
+}
+
+}  // namespace detail
+
 /// hlUpdateVertices, x y z each. Throws std::invalid_argument when the sizes do not fit.
 inline void updateVertices(HLuint object, HLint first, std::span<const HLdouble> vertices,
                            std::span<const HLdouble> normals = {}) {
   if (vertices.size() % 3 != 0) throw std::invalid_argument("vertices must hold 3 numbers each");
   if (!normals.empty() && normals.size() != vertices.size())
     throw std::invalid_argument("normals must hold 3 numbers for each vertex");
-  hlUpdateVertices(object, first, static_cast<HLsizei>(vertices.size() / 3), vertices.data(),
+  hlUpdateVertices(object, first, detail::sizeOf(vertices.size() / 3), vertices.data(),
                    normals.empty() ? nullptr : normals.data());
 }
 
@@ -231,7 +249,7 @@ class ArrayScope {
 template <ArrayNumber Number>
 void drawArrays(HLenum mode, const VertexArrays<Number>& arrays) {
   const detail::ArrayScope<Number> scope(arrays);
-  hlDrawArrays(mode, 0, static_cast<HLsizei>(arrays.size()));
+  hlDrawArrays(mode, 0, detail::sizeOf(arrays.size()));
 }
 
 /// hlDrawElements with all of `indices` (a vector, an array, a span), each below the number of vertices. Afterwards as
@@ -246,12 +264,14 @@ void drawElements(HLenum mode, const VertexArrays<Number>& arrays, const Indices
                           : sizeof(Index) == sizeof(HLushort) ? HL_UNSIGNED_SHORT
                                                               : HL_UNSIGNED_INT;
   const detail::ArrayScope<Number> scope(arrays);
-  hlDrawElements(mode, static_cast<HLsizei>(std::ranges::size(indices)), type, std::ranges::data(indices));
+  hlDrawElements(mode, detail::sizeOf(std::ranges::size(indices)), type, std::ranges::data(indices));
 }
 
 /// Numbers that heights and volumes are made of.
 template <typename Number>
 concept SampleNumber = std::same_as<Number, HLshort> || std::same_as<Number, HLushort> || std::same_as<Number, HLfloat>;
+
+namespace detail {
 
 // Their type in the calls.
 template <SampleNumber Number>
@@ -259,16 +279,17 @@ inline constexpr HLenum kSampleType = std::same_as<Number, HLshort>    ? HL_SHOR
                                       : std::same_as<Number, HLushort> ? HL_UNSIGNED_SHORT
                                                                        : HL_FLOAT;
 
+}  // namespace detail
+
 /// hlHeightField of rows of `columns` samples each (a vector, an array, a span).
 template <std::ranges::contiguous_range Samples>
 requires SampleNumber<std::ranges::range_value_t<Samples>>
 void heightField(std::size_t columns, const Samples& samples, std::optional<HLdouble> missing = {}) {
   using Number = std::ranges::range_value_t<Samples>;
   const std::size_t count = std::ranges::size(samples);
-  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<HLsizei>::max());
-  if (columns == 0 || columns > kMost || count % columns != 0 || count / columns > kMost)
+  if (columns == 0 || count % columns != 0)
     throw std::invalid_argument("the samples must fill rows of so many columns");
-  hlHeightField(static_cast<HLsizei>(columns), static_cast<HLsizei>(count / columns), kSampleType<Number>,
+  hlHeightField(detail::sizeOf(columns), detail::sizeOf(count / columns), detail::kSampleType<Number>,
                 std::ranges::data(samples), missing ? &*missing : nullptr);
 }
 
@@ -281,11 +302,10 @@ struct DepthCamera {
 
 /// hlDepthFrame of rows of `width` depths.
 inline void depthFrame(const DepthCamera& camera, std::size_t width, std::span<const HLushort> depths) {
-  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<HLsizei>::max());
-  if (width == 0 || width > kMost || depths.size() % width != 0 || depths.size() / width > kMost)
+  if (width == 0 || depths.size() % width != 0)
     throw std::invalid_argument("the depths must fill rows of so many columns");
   const std::array<HLdouble, 4> numbers{camera.fx, camera.fy, camera.cx, camera.cy};
-  hlDepthFrame(static_cast<HLsizei>(width), static_cast<HLsizei>(depths.size() / width), depths.data(), numbers.data(),
+  hlDepthFrame(detail::sizeOf(width), detail::sizeOf(depths.size() / width), depths.data(), numbers.data(),
                camera.scale, camera.join, camera.smoothing);
 }
 
@@ -295,19 +315,18 @@ requires SampleNumber<std::ranges::range_value_t<Samples>>
 void volume(std::size_t width, std::size_t height, const Samples& samples, HLdouble iso,
             std::optional<HLdouble> missing = {}) {
   const std::size_t count = std::ranges::size(samples);
-  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<HLsizei>::max());
-  if (width == 0 || height == 0 || width > kMost || height > kMost || count % (width * height) != 0 ||
-      count / (width * height) > kMost)
+  const HLsizei columns = detail::sizeOf(width), rows = detail::sizeOf(height);  // their product is a size
+  if (width == 0 || height == 0 || count % (width * height) != 0)
     throw std::invalid_argument("the samples must fill slices of so many samples along x and y");
-  hlVolume(static_cast<HLsizei>(width), static_cast<HLsizei>(height), static_cast<HLsizei>(count / (width * height)),
-           kSampleType<std::ranges::range_value_t<Samples>>, std::ranges::data(samples), missing ? &*missing : nullptr,
-           iso);
+  hlVolume(columns, rows, detail::sizeOf(count / (width * height)),
+           detail::kSampleType<std::ranges::range_value_t<Samples>>, std::ranges::data(samples),
+           missing ? &*missing : nullptr, iso);
 }
 
 /// hlVolumeMatter, three numbers a row. Throws std::invalid_argument when they fill no rows.
 inline void volumeMatter(std::span<const HLdouble> numbers) {
   if (numbers.size() % 3 != 0) throw std::invalid_argument("matter has three numbers a row");
-  hlVolumeMatter(static_cast<HLsizei>(numbers.size() / 3), numbers.data());
+  hlVolumeMatter(detail::sizeOf(numbers.size() / 3), numbers.data());
 }
 
 /// hlVolumeSolid.
@@ -338,25 +357,23 @@ inline void nurbsSurface(const NurbsForm& form, std::span<const HLdouble> points
                          : knots.size() - std::min(knots.size(), static_cast<std::size_t>(std::max(order, 0)));
   };
   const std::size_t columns = along(form.order_u, form.knots_u), rows = along(form.order_v, form.knots_v);
-  constexpr std::size_t kMost = 1 << 20;
-  if (columns > kMost || rows > kMost || points.size() != each * columns * rows)
+  constexpr std::size_t kMax = 1 << 20;
+  if (columns > kMax || rows > kMax || points.size() != each * columns * rows)
     throw std::invalid_argument("there must be as many control points as orders and knots say");
-  hlNurbsSurface(static_cast<HLsizei>(form.knots_u.size()), form.knots_u.data(),
-                 static_cast<HLsizei>(form.knots_v.size()), form.knots_v.data(), static_cast<HLint>(each),
-                 static_cast<HLint>(each * columns), points.data(), form.order_u, form.order_v,
-                 form.weighted ? HL_MAP2_VERTEX_4 : HL_MAP2_VERTEX_3, form.error);
+  hlNurbsSurface(detail::sizeOf(form.knots_u.size()), form.knots_u.data(), detail::sizeOf(form.knots_v.size()),
+                 form.knots_v.data(), static_cast<HLint>(each), static_cast<HLint>(each * columns), points.data(),
+                 form.order_u, form.order_v, form.weighted ? HL_MAP2_VERTEX_4 : HL_MAP2_VERTEX_3, form.error);
 }
 
 /// hlPointCloud of points of three numbers each; as many normals, or none, and hlPointColors with as many colours, or
 /// none.
 inline void pointCloud(std::span<const HLdouble> points, std::span<const HLdouble> normals = {}, HLdouble reach = 0,
                        std::span<const HLubyte> colors = {}) {
-  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<HLsizei>::max());
-  if (points.size() % 3 != 0 || points.size() / 3 > kMost || (!normals.empty() && normals.size() != points.size()))
+  if (points.size() % 3 != 0 || (!normals.empty() && normals.size() != points.size()))
     throw std::invalid_argument("a point has three numbers, and its normal too");
   if (!colors.empty() && colors.size() != points.size())
     throw std::invalid_argument("a colour has three numbers, and there is one for each point");
-  const auto count = static_cast<HLsizei>(points.size() / 3);
+  const HLsizei count = detail::sizeOf(points.size() / 3);
   hlPointCloud(count, points.data(), normals.empty() ? nullptr : normals.data(), reach);
   if (!colors.empty()) hlPointColors(count, colors.data());
 }
@@ -406,7 +423,7 @@ inline void fieldCurve(HLenum kind, std::span<const HLdouble> points, HLdouble r
 /// hlJointTable. Throws std::invalid_argument when there are not as many forces as positions.
 inline void jointTable(std::span<const HLdouble> positions, std::span<const HLdouble> forces) {
   if (positions.size() != forces.size()) throw std::invalid_argument("a table needs a force for each position");
-  hlJointTable(static_cast<HLsizei>(positions.size()), positions.data(), forces.data());
+  hlJointTable(detail::sizeOf(positions.size()), positions.data(), forces.data());
 }
 
 /// hlGetJoints: all of them, sorted by number.
@@ -444,9 +461,9 @@ struct ContactReport {
 
 /// hlTakeContactReport: all that was pressed since the last time, the strongest first.
 inline ContactReport takeContactReport() {
-  constexpr HLsizei kMost = 1024;  // more are not kept
-  ContactReport report{{}, std::vector<HLcontactforce>(kMost)};
-  report.contacts.resize(static_cast<std::size_t>(hlTakeContactReport(kMost, report.contacts.data(), &report.mean)));
+  constexpr HLsizei kMax = 1024;  // more are not kept
+  ContactReport report{{}, std::vector<HLcontactforce>(kMax)};
+  report.contacts.resize(static_cast<std::size_t>(hlTakeContactReport(kMax, report.contacts.data(), &report.mean)));
   return report;
 }
 

@@ -43,15 +43,16 @@ HL_API HLbatchScene* hlBatchLoadScene(const char* name, HLdouble size);
 HL_API HLbatchScene* hlBatchMakeScene(const HLdouble* positions, const HLdouble* normals, size_t vertices,
                                       const HLuint* indices, size_t triangles);
 /** A height field of `columns` x `rows` samples, row by row, of `type` HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT. Columns
- * lead to +x, `spacing` x 0 m apart, rows to +z, `spacing` x 1, with the middle at x = z = 0; heights are y, `scale` m
- * for a unit. Around samples that equal `*missing` (NULL: none), or are not a number, there are holes. The samples are
- * copied. NULL when that fails. */
+ * lead to +x, `spacing` x 0 m (1e-12 .. 1e9) apart, rows to +z, `spacing` x 1, with the middle at x = z = 0; heights
+ * are y, `scale` m for a unit. Around samples that equal `*missing` (NULL: none), or are not a number, there are holes.
+ * The samples are copied. NULL when that fails. */
 HL_API HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type, const void* samples,
                                         const HLdouble* missing, const HLdouble* spacing, HLdouble scale);
 /** The surfaces of a volume where its samples pass the values `iso` x 0 .. `surfaces` - 1. `size` x 0..2 samples along
  * x, y and z, those along x next to each other, of `type` HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT, `spacing` x 0..2 m
- * apart, with the middle of the volume at the origin. There is no surface around samples that equal `*missing` (NULL:
- * none), or are not a number. The samples are copied. NULL when that fails, also where a value has no surface. */
+ * (1e-12 .. 1e9) apart, with the middle of the volume at the origin. There is no surface around samples that equal
+ * `*missing` (NULL: none), or are not a number. The samples are copied. NULL when that fails, also where a value has no
+ * surface. */
 HL_API HLbatchScene* hlBatchMakeVolume(const size_t* size, HLenum type, const void* samples, const HLdouble* missing,
                                        const HLdouble* spacing, size_t surfaces, const HLdouble* iso);
 /** As hlBatchMakeVolume, with the matter where samples are below `iso`, as of signed distances. */
@@ -126,7 +127,8 @@ HL_API void hlBatchResetFingers(HLbatchFingers* fingers, const unsigned char* ma
 /** Of each of `count` points (x 3) the nearest point of the scene, at any distance. Each output may be NULL: `nearest`
  * x 3, m; `distance`, m; `normal` x 3, unit, from the surface to the point; `primitive`, its number in the model: the
  * row of hlBatchMakeScene's triangles; of a file first the triangles, then the segments, then the points. Degenerate
- * ones, which cannot be touched, count too. Bodies are where they start, and count after what stays. */
+ * ones have their numbers there, but cannot be touched and are never the nearest. Bodies are where they start, and
+ * count after what stays. */
 HL_API HLenum hlBatchClosest(const HLbatchScene* scene, size_t count, const HLdouble* points, HLint threads,
                              HLdouble* nearest, HLdouble* distance, HLdouble* normal, uint64_t* primitive);
 

@@ -110,8 +110,8 @@ enum {
 
 /** hlVolumeSolid: where the matter of a volume is. */
 enum {
-  HL_ABOVE = 0x48160, /**< where values are above iso. The default. */
-  HL_BELOW = 0x48161  /**< where values are below iso, as of signed distances */
+  HL_ABOVE = 0x48170, /**< where values are above iso. The default. */
+  HL_BELOW = 0x48171  /**< where values are below iso, as of signed distances */
 };
 
 /** Control points of hlNurbsSurface. */
@@ -295,7 +295,7 @@ enum {
   HL_BODY_POSITION = 0x48109,         /**< hlGetBodydv, 3; m: of the object frame */
   HL_BODY_ROTATION = 0x4810A,         /**< hlGetBodydv, 4; quaternion x y z w */
   HL_BODY_MATRIX = 0x4810B,           /**< hlGetBodydv, 16; both, column by column: in place of the call's matrix, but
-                                           for its scale */
+                                           for its scale; of a mirrored call that is negative along all axes */
   HL_BODY_HULL = 0x48110,             /**< convex hull of the vertices */
   HL_BODY_BOX = 0x48111,              /**< their bounds in the object frame */
   HL_BODY_BALL = 0x48112,             /**< centred in the bounds, as wide as their largest side */
@@ -362,9 +362,10 @@ typedef struct HLjoint {
 
 /** One contact of the proxy, from hlGetContacts. World frame. */
 typedef struct HLcontact {
-  HLdouble point[3];  /**< m, on the surface */
-  HLdouble normal[3]; /**< unit, away from the surface, as it feels: bent by shading and bump maps */
-  HLdouble share;     /**< m: its part of proxy - finger; times K and `stiffness` it is its force; below 0: it pulls */
+  HLdouble point[3];        /**< m, on the surface */
+  HLdouble normal[3];       /**< unit, away from the surface, as it feels: bent by shading and bump maps */
+  HLdouble share;           /**< m: its part of proxy - finger; times K and the mean of `stiffness`, weighted by
+                                     shares, it is its force; below 0: it pulls */
   HLdouble static_friction; /**< mu_s there */
   HLdouble stiffness;       /**< 0..1 there */
   HLuint object;            /**< the innermost object; 0: drawn outside of objects */

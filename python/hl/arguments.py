@@ -13,6 +13,7 @@ from .errors import InvalidValueError
 Floats = npt.NDArray[np.float64]
 
 _MOST_THREADS = 2**20  # more than any machine has; hl uses no more than the machine's
+_LEAST_STEP, _MOST_STEP = 1e-12, 1e9  # m, as in scene files
 
 
 def number(value: Any, name: str) -> float:
@@ -91,7 +92,11 @@ def steps(spacing: Any, axes: int) -> List[float]:
     several = [spacing] * axes if np.ndim(spacing) == 0 else list(spacing)
     if len(several) != axes:
         raise InvalidValueError(f"spacing must be one number or {axes}, and has {len(several)}")
-    return [number(step, "spacing") for step in several]
+    lengths = [number(step, "spacing") for step in several]
+    for length in lengths:
+        if not _LEAST_STEP <= length <= _MOST_STEP:
+            raise InvalidValueError(f"spacing must be from 1e-12 to 1e9 m along each axis, and is {length:g}")
+    return lengths
 
 
 def reach(surfels: Any) -> float:

@@ -47,7 +47,8 @@ class Scene:
 
     Scene(volume=samples, iso=value, spacing=1.0, missing=None, below=False): the surface of a volume where its samples are `iso`, or
         several surfaces of it, of a list of values: an array (z, y, x) of int16, uint16 or float32; others become
-        float32. Samples are `spacing` m apart (one number, or those along x, y and z), with the middle at the origin.
+        float32. Samples are `spacing` m apart (one number, or those along x, y and z; 1e-12 to 1e9), with the middle at
+        the origin. A value at which there is no surface is refused.
         There is no surface around samples that equal `missing`, or are not a number. The matter is where samples are
         above `iso`, or with `below` where they are below it, as of signed distances.
 

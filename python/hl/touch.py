@@ -35,6 +35,8 @@ _SAFETY = {
 }
 _LEDGERS = {"tank": calls.HL_LEDGER_TANK, "strict": calls.HL_LEDGER_STRICT, "report": calls.HL_LEDGER_REPORT}
 _GRIPS = {"light": calls.HL_GRIP_LIGHT, "firm": calls.HL_GRIP_FIRM}
+# Vertices of one primitive, where each has as many.
+_CORNERS = {calls.HL_LINES: 2, calls.HL_TRIANGLES: 3, calls.HL_QUADS: 4}
 _SHADINGS = {"flat": calls.HL_FLAT, "smooth": calls.HL_SMOOTH}
 _EVENTS = {
     "touch": calls.HL_EVENT_TOUCH,
@@ -143,7 +145,7 @@ class Touch:
 
     def __init__(self, context: _hl.Context) -> None:
         self._context = context
-        self._is_abandoned = self._is_in_frame = False
+        self._is_in_frame = False
         self._functions: Dict[int, Callable[[_hl.Event], None]] = {}  # given to `on`, by kind
 
     def __enter__(self) -> "Touch":
@@ -172,18 +174,16 @@ class Touch:
         """One frame: what is drawn inside becomes touchable all at once, and replaces the world of the frame before.
 
         A frame that draws nothing leaves the world, and changes only what it defines or updates. wait: until it is
-        shown. After an exception inside, nothing is sent, and the next frame begins with an empty world.
+        shown. After an exception inside, nothing is sent, and all is as if the frame had not begun.
         """
         self.make_current()
         if self._is_in_frame:
             raise InvalidOperationError("a frame is open: a frame cannot be within another one")
-        if self._is_abandoned:
-            calls.hlClear()
-        self._is_abandoned, self._is_in_frame = False, True
+        self._is_in_frame = True
         try:
             yield self
         except BaseException:
-            self._is_abandoned = True
+            self._cancel_frame()
             raise
         finally:
             self._is_in_frame = False
@@ -192,6 +192,11 @@ class Touch:
             calls.hlFinish()
         else:
             calls.hlFlush()
+
+    def _cancel_frame(self) -> None:
+        with contextlib.suppress(InvalidOperationError):  # it was closed inside
+            self.make_current()
+            calls.hlCancelFrame()
 
     def clear(self) -> None:
         """Begins the frame with an empty world."""
@@ -216,8 +221,8 @@ class Touch:
     ) -> None:
         """Draws vertices, (n, 3) in m: triangles, or what `mode` says (HL_POINTS .. HL_POLYGON of hl.calls).
 
-        indices: whole numbers below n, of any shape, such as (m, 3); None: the vertices in their order. normals, for
-        smooth shading: (n, 3). texcoords: (n, 2).
+        indices: whole numbers below n, in a row or as one row of a primitive, as (m, 3) for triangles; None: the
+        vertices in their order. normals, for smooth shading: (n, 3). texcoords: (n, 2).
         """
         self.make_current()
         mode = arguments.whole(mode, "mode")
@@ -227,8 +232,8 @@ class Touch:
             calls.hlDrawArrays(mode, points, *others)
             return
         array = arguments.integers(indices, "indices")
-        if array.size > 0 and points.ndim == 2 and (array.min() < 0 or array.max() >= len(points)):
-            raise InvalidValueError("an index must be below the number of vertices")
+        if points.ndim == 2 and points.shape[1] == 3:  # else the call says what is wrong with them
+            _require_indices(array, len(points), mode)
         calls.hlDrawElements(mode, points, array.astype(np.uint32), *others)
 
     def heights(
@@ -338,15 +343,19 @@ class Touch:
 
     @contextlib.contextmanager
     def define(self, number: Optional[int] = None) -> Iterator[int]:
-        """Defines an object, new or again, by what is drawn inside; gives its number, for `place`."""
+        """Defines an object, new or again, by what is drawn inside; gives its number, for `place`. After an exception
+        inside, the object is as it was before."""
         self.make_current()
         number = calls.hlGenObjects(1)[0] if number is None else arguments.whole(number, "the object's number")
         calls.hlNewObject(number)
         try:
             yield number
-        finally:
+        except BaseException:
             self.make_current()
-            calls.hlEndObject()
+            calls.hlCancelObject()
+            raise
+        self.make_current()
+        calls.hlEndObject()
 
     def body(self, shape: str = "hull", fixed: bool = False, **parameters: Any) -> None:
         """Makes the object that is being defined a rigid body: each `place` of it is one, and goes on from where it is
@@ -768,6 +777,14 @@ class _Caller:
         function = None if touch is None else touch._functions.get(event.kind)
         if function is not None:
             function(event)
+
+
+def _require_indices(indices: npt.NDArray[np.int64], vertices: int, mode: int) -> None:
+    if indices.size > 0 and (indices.min() < 0 or indices.max() >= vertices):
+        raise InvalidValueError("an index must be below the number of vertices")
+    corners = _CORNERS.get(mode)
+    if indices.ndim > 1 and corners and indices.shape[-1] != corners:
+        raise InvalidValueError(f"indices: rows of {indices.shape[-1]}, but a primitive of this mode has {corners}")
 
 
 def _optional_floats(numbers: Optional[npt.ArrayLike], name: str) -> Optional[Floats]:

@@ -6,7 +6,7 @@ from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 from plots import look
 from plots.look import BLUE, GREEN, GREY, ORANGE, PURPLE, canvas, column, save, style
 
-RESULT = look.ROOT / "bench" / "results" / "share_epyc_2_cores.csv"
+RESULT = look.ROOT / "bench" / "results" / "share_xeon_2_cores.csv"
 COLOURS = {"anna": BLUE, "bert": ORANGE, "carl": GREEN}
 PLACES = {"anna": (0.0, 5.2), "bert": (5.6, 5.2), "carl": (2.8, 0.2)}
 # Of each server: what it owns, and so tells the others.

@@ -31,6 +31,11 @@ class CallsDocument(unittest.TestCase):
         constants = set(re.findall(r"\bHL_[A-Z0-9_]+\b", read("include/hl/hl_types.h")))
         self.assertEqual(set(re.findall(r"\bHL_[A-Z0-9_]+\b", self.document)) - constants, set())
 
+    def test_no_two_constants_of_hl_have_the_same_number(self):
+        numbers = re.findall(r"\bHL_\w+ = (0x48[0-9A-Fa-f]{3})\b", read("include/hl/hl_types.h"))
+        self.assertGreater(len(numbers), 100)
+        self.assertEqual([number for number in set(numbers) if numbers.count(number) > 1], [])
+
 
 if __name__ == "__main__":
     unittest.main()

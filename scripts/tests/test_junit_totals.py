@@ -24,6 +24,13 @@ class JunitTotals(unittest.TestCase):
           <testsuite><testcase name="b"><error/></testcase><testcase name="c"/></testsuite></testsuites>"""
         self.assertEqual(self.totals(report), (2, 1, 0))
 
+    def test_what_a_failed_case_said_is_told(self):
+        report = """<testsuite><testcase name="good"><system-out>fine</system-out></testcase>
+          <testcase name="bad"><failure message="Failed"/><system-out>one
+          two</system-out></testcase></testsuite>"""
+        [(name, lines)] = junit_totals.failures(ElementTree.fromstring(report), 2)
+        self.assertEqual((name, [line.strip() for line in lines]), ("bad", ["one", "two"]))
+
     def test_an_unreadable_report_is_code_2(self):
         self.assertEqual(junit_totals.main(["/nonexistent.xml"]), 2)
 

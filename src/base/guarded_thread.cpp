@@ -104,6 +104,22 @@ std::thread startThread(const char* name, std::function<void()> body) {
   });
 }
 
+void LoopThread::start(const char* name, std::function<void()> body) {
+  running_ = true;
+  try {
+    thread_ = startThread(name, std::move(body));
+  } catch (...) {
+    running_ = false;
+    throw;
+  }
+}
+
+bool LoopThread::stop() {
+  if (!running_.exchange(false)) return false;
+  thread_.join();
+  return true;
+}
+
 FixedVector<ThreadFailures, kMaxThreadNames> threadFailures() {
   FixedVector<ThreadFailures, kMaxThreadNames> all;
   for (const Failures& failures : failures_of) {

@@ -2,6 +2,7 @@
 // servo may be holding somebody's hand. Failures are counted by the name of their thread, and told.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -18,6 +19,26 @@ inline constexpr auto kAfterFailure = std::chrono::milliseconds(10);
 /// A thread that runs `body` under `name`, a literal of at most 15 characters: the kernel shows no more. The body
 /// returns when its work is over; when an exception leaves it, it runs once more, after kAfterFailure.
 std::thread startThread(const char* name, std::function<void()> body);
+
+/// The thread of a loop: what it runs looks at running(), and returns when that is false. One thread starts and stops
+/// it; running() may be asked by any.
+class LoopThread {
+ public:
+  LoopThread() = default;
+  LoopThread(const LoopThread&) = delete;
+  LoopThread& operator=(const LoopThread&) = delete;
+  ~LoopThread() { stop(); }
+
+  /// As startThread(). When it throws, nothing runs.
+  void start(const char* name, std::function<void()> body);
+  /// Joins it. Returns whether it was running: safe to call twice.
+  bool stop();
+  const std::atomic<bool>& running() const { return running_; }
+
+ private:
+  std::atomic<bool> running_{false};
+  std::thread thread_;
+};
 
 /// For a thread that somebody else has started: its name from now on. Never fails.
 void nameThread(const char* name) noexcept;

@@ -8,7 +8,7 @@
 #include "base/failing_allocation.h"
 #include "base/realtime_guard.h"
 
-#define HL_HOOK extern "C" [[gnu::visibility("default")]]
+#define HL_HEAP_HOOK extern "C" [[gnu::visibility("default")]]
 
 #ifndef HL_SANITIZED
 
@@ -19,33 +19,33 @@ extern "C" void* __libc_realloc(void* memory, std::size_t size);
 extern "C" void* __libc_memalign(std::size_t alignment, std::size_t size);
 extern "C" void __libc_free(void* memory);
 
-HL_HOOK void* malloc(std::size_t size) {
+HL_HEAP_HOOK void* malloc(std::size_t size) {
   hl::RealtimeGuard::onHeapCall();
   return __libc_malloc(size);
 }
 
-HL_HOOK void* calloc(std::size_t count, std::size_t size) {
+HL_HEAP_HOOK void* calloc(std::size_t count, std::size_t size) {
   hl::RealtimeGuard::onHeapCall();
   return __libc_calloc(count, size);
 }
 
-HL_HOOK void* realloc(void* memory, std::size_t size) {
+HL_HEAP_HOOK void* realloc(void* memory, std::size_t size) {
   hl::RealtimeGuard::onHeapCall();
   return __libc_realloc(memory, size);
 }
 
 // Boost.Asio's way to memory.
-HL_HOOK void* aligned_alloc(std::size_t alignment, std::size_t size) {
+HL_HEAP_HOOK void* aligned_alloc(std::size_t alignment, std::size_t size) {
   hl::RealtimeGuard::onHeapCall();
   return hl::FailingAllocation::isNow() ? nullptr : __libc_memalign(alignment, size);
 }
 
-HL_HOOK void* memalign(std::size_t alignment, std::size_t size) {
+HL_HEAP_HOOK void* memalign(std::size_t alignment, std::size_t size) {
   hl::RealtimeGuard::onHeapCall();
   return __libc_memalign(alignment, size);
 }
 
-HL_HOOK int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+HL_HEAP_HOOK int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
   hl::RealtimeGuard::onHeapCall();
   void* const found = __libc_memalign(alignment, size);
   if (found == nullptr) return ENOMEM;
@@ -53,7 +53,7 @@ HL_HOOK int posix_memalign(void** memory, std::size_t alignment, std::size_t siz
   return 0;
 }
 
-HL_HOOK void free(void* memory) {
+HL_HEAP_HOOK void free(void* memory) {
   if (memory != nullptr) hl::RealtimeGuard::onHeapCall();
   __libc_free(memory);
 }

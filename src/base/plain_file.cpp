@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "base/error.h"
@@ -16,6 +17,12 @@ void checkPlainFile(const std::string& path) {
   if (std::filesystem::is_directory(status)) throw Error(path + ": is a folder");
   if (!std::filesystem::is_regular_file(status)) throw Error(path + ": is not a file");
   if (!std::ifstream(path, std::ios::binary)) throw Error(path + ": may not be read");
+}
+
+std::optional<std::string> contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return {};
+  return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
 }  // namespace hl

@@ -40,8 +40,8 @@ double cosNearZero(double x) { return series(-x * x, 0, 2, 9); }
 
 // The sine of x + quarters * pi / 2.
 double sinFrom(double x, std::int64_t quarters) {
-  constexpr double kMost = 1e9;  // rad; beyond it the rest is not below a quarter
-  if (!(std::abs(x) <= kMost)) return std::numeric_limits<double>::quiet_NaN();
+  constexpr double kMax = 1e9;  // rad; beyond it the rest is not below a quarter
+  if (!(std::abs(x) <= kMax)) return std::numeric_limits<double>::quiet_NaN();
   const double k = std::floor(x / kQuarterHigh + 0.5);
   const double rest = ((x - k * kQuarterHigh) - k * kQuarterMiddle) - k * kQuarterLow;
   switch ((static_cast<std::int64_t>(k) + quarters) & 3) {

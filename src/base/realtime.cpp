@@ -13,11 +13,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "base/plain_file.h"
 
 namespace hl {
 
@@ -52,8 +52,7 @@ int numberAt(std::string_view& text) {
 
 // The kernel's lists: "2-3,5"; empty when there is none.
 std::vector<int> isolatedCores() {
-  std::ifstream file("/sys/devices/system/cpu/isolated");
-  const std::string list{std::istreambuf_iterator<char>(file), {}};
+  const std::string list = contentOf("/sys/devices/system/cpu/isolated").value_or("");
   std::vector<int> cores;
   for (std::string_view rest = list; !rest.empty() && rest.front() >= '0' && rest.front() <= '9';) {
     const int first = numberAt(rest);

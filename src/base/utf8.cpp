@@ -1,13 +1,14 @@
 #include "base/utf8.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace hl {
 
 namespace {
 
 constexpr std::uint32_t kPayload = 0x3f;  // of a byte that continues
+
+bool continues(char byte) { return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80; }
 
 // Bytes of the character that begins here; 0: none does. The ranges are those of RFC 3629.
 std::size_t lengthOfCharacter(std::string_view text) {
@@ -23,7 +24,7 @@ std::size_t lengthOfCharacter(std::string_view text) {
   const unsigned char most = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
   if (byte(1) < least || byte(1) > most) return 0;
   for (std::size_t i = 2; i < length; ++i) {
-    if ((byte(i) & 0xc0U) != 0x80) return 0;
+    if (!continues(text[i])) return 0;
   }
   return length;
 }
@@ -46,6 +47,19 @@ std::string validUtf8(std::string text) {
     at += std::max<std::size_t>(length, 1);
   }
   return text;
+}
+
+std::string printable(std::string_view text) {
+  std::vector<std::uint32_t> points = codePointsOf(text);
+  const auto is_control = [](std::uint32_t point) { return point < 0x20 || (point >= 0x7f && point < 0xa0); };
+  std::replace_if(points.begin(), points.end(), is_control, '?');
+  return utf8Of(points);
+}
+
+std::string_view beginOf(std::string_view text, std::size_t most_bytes) {
+  std::size_t end = std::min(text.size(), most_bytes);
+  while (end > 0 && end < text.size() && continues(text[end])) --end;
+  return text.substr(0, end);
 }
 
 std::vector<std::uint32_t> codePointsOf(std::string_view text) {

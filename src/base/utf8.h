@@ -1,6 +1,7 @@
 // UTF-8 (RFC 3629): texts of files and of others go into messages, which take nothing else.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,6 +13,10 @@ namespace hl {
 bool isUtf8(std::string_view text);
 /// `text` with '?' for each byte that belongs to no character of UTF-8.
 std::string validUtf8(std::string text);
+/// The same, with '?' for each control character too: a line for a terminal, whatever names of files and objects hold.
+std::string printable(std::string_view text);
+/// The beginning of `text`, which is UTF-8: at most so many bytes, and no part of a character at its end.
+std::string_view beginOf(std::string_view text, std::size_t most_bytes);
 /// The code points of validUtf8(text), and the text of code points that are some.
 std::vector<std::uint32_t> codePointsOf(std::string_view text);
 std::string utf8Of(const std::vector<std::uint32_t>& points);

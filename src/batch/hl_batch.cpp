@@ -26,6 +26,7 @@
 #include "io/read_heights.h"
 #include "scene/scene_model.h"
 #include "surfaces/cloud_maker.h"
+#include "surfaces/grid_frame.h"
 #include "surfaces/height_field.h"
 #include "surfaces/point_cloud.h"
 #include "surfaces/sample_room.h"
@@ -111,6 +112,12 @@ void requireReach(const HLdouble* numbers, std::size_t count, const char* what) 
   require(std::all_of(numbers, numbers + count, [](double x) { return std::abs(x) <= kFarthestFinger_m; }), what);
 }
 
+// A negative one would mirror what it is given.
+void requireSpacing(const HLdouble* spacing, std::size_t axes) {
+  const auto sound = [](double step) { return step >= kMinGridStep && step <= kMaxGridStep; };
+  require(std::all_of(spacing, spacing + axes, sound), "spacing must be from 1e-12 to 1e9 m along each axis");
+}
+
 // Without a budget of work: nothing waits for a step, and so the machine decides nothing.
 ProxySettings settingsOf(const HLbatchSettings* given) {
   require(given != nullptr, "settings is NULL; hlBatchSettings makes some");
@@ -166,8 +173,9 @@ struct GivenVolume {
 
 SceneModel modelOf(const GivenVolume& in, SolidSide solid) {
   require(in.size != nullptr && in.samples != nullptr && in.spacing != nullptr, "size, samples or spacing is NULL");
+  requireSpacing(in.spacing, 3);
   require(in.surfaces > 0 && in.iso != nullptr, "a volume needs an iso value");
-  require(*std::max_element(in.size, in.size + 3) <= kMostVoxelSide, "there are too many samples along an axis");
+  require(*std::max_element(in.size, in.size + 3) <= kMaxVoxelSide, "there are too many samples along an axis");
   std::array<std::uint32_t, 3> side{};
   std::transform(in.size, in.size + 3, side.begin(), [](std::size_t n) { return static_cast<std::uint32_t>(n); });
   checkVoxelSides(side);
@@ -239,11 +247,13 @@ HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type, const
   HLbatchScene* scene = nullptr;
   guardedCall(__func__, [&] {
     require(samples != nullptr && spacing != nullptr, "samples or spacing is NULL");
+    requireSpacing(spacing, 2);
     require(columns <= kMaxGridSide && rows <= kMaxGridSide, "there are too many columns or rows");
     const GridSize size{static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows), kindOf(type)};
     const auto grid = std::make_shared<const HeightGrid>(size, copyOf(samples, size.bytes()), missingOf(missing));
     const auto field = std::make_shared<const HeightField>(grid, uprightFrame(size, spacing[0], spacing[1], scale));
     requireTriangles(*field);
+    requireSlopes(*field);
     SceneModel made;
     made.surfaces.push_back({"heights", field});
     scene = sceneOf(std::move(made));

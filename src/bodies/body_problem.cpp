@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "bodies/free_motion.h"
 #include "bodies/joint_groups.h"
 
 namespace hl {
@@ -25,12 +24,14 @@ std::shared_ptr<const World> checked(std::shared_ptr<const World> world) {
 BodyProblem::BodyProblem(std::shared_ptr<const World> of)
     : world(checked(std::move(of))), placed(*world), meetings(*world), joints(*world) {
   groups = jointGroups(*world);
+  axes.reserve(bodies());
+  for (const Body& body : world->bodies) axes.push_back(principalAxesOf(body.mass));
   awake.reserve(bodies());
   awake_joints.reserve(world->joints.size());
   turned.resize(bodies());
-  nodes.reserve(bodies() + kMostHands);
-  before.reserve(bodies() + kMostHands);
-  unpushed.reserve(bodies() + kMostHands);
+  nodes.reserve(bodies() + kMaxHands);
+  before.reserve(bodies() + kMaxHands);
+  unpushed.reserve(bodies() + kMaxHands);
   rows.reserve(mostRows(*world));
 }
 
@@ -40,7 +41,7 @@ BodyState BodyProblem::stateAtEnd(const WorldState& state, std::size_t body, con
   if (state.bodies[body].island != 0) return state.bodies[body];
   BodyState moved = state.bodies[body];
   moved.spin = plan.turns[body];
-  moveFreely(world->bodies[body], moved, plan.parts[body] * plan.ways[body], plan.parts[body] * period_s);
+  moveFreely(axes[body], moved, plan.parts[body] * plan.ways[body], plan.parts[body] * period_s);
   return moved;
 }
 
@@ -63,12 +64,31 @@ PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& mee
                     room);
 }
 
-double BodyProblem::overlapAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
-                                 Manifold& end) const {
-  const PairAtEnd pair(*this, state, meeting, plan);
-  if (!pair.along.hasPassed() && findManifold(pair.a, pair.b, 0, end)) return deepestOf(end);
+// A plane that has two convex shapes on its sides at both ends of a straight motion has them there all the way. Beside
+// a triangle a body rolls on the next one, or over an edge: the plane must keep it as well as a contact would. A
+// cylinder's points are told roughly beside a rim, its height above a plane exactly.
+bool BodyProblem::isKeptApart(const Meeting& meeting, const PairAtEnd& end) const {
+  if (meeting.b != Row::kFixed || end.b.vertices.size() != 3) return false;
+  const PlacedConvex& a = placed[static_cast<std::size_t>(meeting.a)][static_cast<std::size_t>(meeting.part_a)];
+  const Vec3& corner = end.b.vertices[0];
+  Vec3 normal = (end.b.vertices[1] - corner).cross(end.b.vertices[2] - corner).normalized();
+  if (normal.dot(a.centre - corner) < 0) normal = -normal;
+  const bool is_plane = normal.squaredNorm() > 0;
+  const double same = normal.dot(meeting.manifold.normal);
+  const bool by_face = same >= kSameWay && !meeting.beside;
+  if (!is_plane || (by_face && !isRound(end.a))) return false;
+  const SceneAt& scene = *meetings.scene();
+  PlacedRoom room;
+  const PlacedConvex b = hl::placed(scene.primitive(meeting.primitive),
+                                    scene.instance(meeting.primitive).poses().at(times.begin_ns), room);
+  const double least = by_face ? -kTouching_m : meeting.beside ? -kHeld_m : -leftOf(a, b);
+  return pairAlong(a, b, normal).gap >= least && pairAlong(end.a, end.b, normal).gap >= least;
+}
+
+double overlapOf(const PairAtEnd& pair, Manifold& end) {
   end.points.clear();
-  return pair.along.hasPassed() ? std::max(-pair.along.gap, 0.0) : 0;
+  if (pair.along.hasPassed()) return std::max(-pair.along.gap, 0.0);
+  return findManifold(pair.a, pair.b, 0, end) ? deepestOf(end) : 0;
 }
 
 Pace paceOf(const BodyProblem& problem, const Meeting& meeting) {

@@ -1,9 +1,11 @@
 // Body problem: what one step solves: the velocities of bodies and hands, and the contacts between them.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
+#include "bodies/free_motion.h"
 #include "bodies/joint_set.h"
 #include "bodies/meetings.h"
 #include "bodies/pair_along.h"
@@ -20,6 +22,8 @@ struct BodyWays {
   std::vector<Vec3> turns;    ///< rad/s, while they move
   std::vector<double> parts;  ///< 0..1 of both, that nothing is in the way of
 };
+
+struct PairAtEnd;
 
 /// Made once for a world; its lists have room for any step. By one thread at a time.
 struct BodyProblem {
@@ -39,9 +43,9 @@ struct BodyProblem {
   /// The other of a pair, of a body or a primitive of the scene. RT-safe.
   PlacedConvex otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
                           PlacedRoom& room) const;
-  /// m, >= 0: how far the pair would overlap then. `end`: where; without points if it is apart, or has passed through
-  /// along the normal of the begin. RT-safe.
-  double overlapAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan, Manifold& end) const;
+  /// Whether the plane of a triangle of the scene has the pair on its two sides at the begin and at the end, though
+  /// they met beside it: a body that slides over a mesh does not hit the edges of the triangles ahead. RT-safe.
+  bool isKeptApart(const Meeting& meeting, const PairAtEnd& end) const;
   /// A part of a body after its part of the way. RT-safe.
   PlacedConvex atEnd(const WorldState& state, int body, int part, const BodyWays& plan, PlacedRoom& room) const;
 
@@ -57,7 +61,9 @@ struct BodyProblem {
   JointSet joints;
   std::vector<std::uint32_t> awake_joints;  ///< numbers of those whose bodies are awake, ascending
   std::vector<std::uint32_t> groups;        ///< of each body: joint_groups.h
+  std::vector<PrincipalAxes> axes;          ///< of each body
   double period_s = 1e-3;
+  std::uint64_t step = 0;  ///< its number
   StepTimes times;
 };
 
@@ -75,6 +81,10 @@ struct PairAtEnd {
   const PairAlong along;
 };
 
+/// m, >= 0: how far the pair would overlap then. `end`: where; without points if it is apart, or has passed through
+/// along the normal of the begin. RT-safe.
+double overlapOf(const PairAtEnd& pair, Manifold& end);
+
 /// How a pair moves: whether rows made for its begin may miss its end.
 struct Pace {
   bool fast = false, turns = false;
@@ -87,6 +97,12 @@ double deepestOf(const Manifold& manifold);
 /// m; a contact with no more of a gap bears load, and no less of an overlap is pushed apart. At 1000 N/m a nanometre is
 /// a micronewton; rounding at a metre is a millionth of it.
 inline constexpr double kTouching_m = 1e-9;
+/// m, and of the least overlap at which a pair has passed; a smaller overlap at the end of a step is left to what
+/// pushes apart (motion_plan.h).
+inline constexpr double kLeft_m = 1e-5, kLeft = 0.25;
+inline double leftOf(const PlacedConvex& a, const PlacedConvex& b) {
+  return std::min(kLeft_m, kLeft * (a.shape->thin + b.shape->thin));
+}
 /// m; a contact that bore load keeps its row up to this gap, so that the rows of what rests are the same in each step.
 inline constexpr double kHeld_m = 1e-6;
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bodies/free_motion.h"
 #include "bodies/row_solver.h"
 #include "bodies/sleep.h"
 
@@ -11,8 +10,11 @@ namespace hl {
 
 namespace {
 
-// How often rows are added for what the motion found would pass. What is left stops short (motion_plan.h).
+// How often rows are added for what the motion found would pass: first by rough impulses, then by exact ones. What is
+// left stops short (motion_plan.h).
 constexpr int kRounds = 8;
+// Updates of a row by a sweep, that a look at a meeting costs as much as.
+constexpr int kUpdatesOfMeeting = 12;
 // How often a step may wake islands and begin anew; one that is hit after that is hard as a wall for this step.
 constexpr int kRestarts = 4;
 // How often bounces are halved that would add energy; the last time there is none.
@@ -45,6 +47,7 @@ double energyOfNode_J(const BodyProblem& problem, std::size_t body) {
 // What sleeps is a node that nothing moves.
 void BodyStepper::begin(const WorldState& state, double period_s) {
   problem_.period_s = period_s;
+  problem_.step = state.steps;
   problem_.nodes.resize(problem_.bodies());
   problem_.rows.clear();
   problem_.awake.clear();
@@ -94,47 +97,45 @@ void BodyStepper::addHand(const HandNode& hand, GivenImpulses& given) {
   problem_.before.push_back(node);
 }
 
-// m/s: no body is faster after a hand that may meet it in this step has stopped at it.
-double BodyStepper::fastestPushed_m_s(const HandNode& hand) const {
-  double fastest = 0;
-  const double reach = hand.stretch.norm(), impulse_N_s = hand.spring_N_m * problem_.period_s * reach;
-  for (const std::size_t i : problem_.awake) {
-    const Node& node = problem_.nodes[i];
-    const double near = problem_.reachOf(i) + hand.radius_m + 2 * reach;
-    if ((node.centre - hand.proxy).squaredNorm() > near * near) continue;
-    const double square = problem_.reachOf(i) * problem_.reachOf(i);
-    fastest = std::max(fastest, impulse_N_s * (node.inverse_mass + square * node.inverse_inertia.trace()));
-  }
-  return std::min(fastest, reach / problem_.period_s);
+// What overlaps goes apart though nothing is fast: in the room that this takes there may be more.
+void BodyStepper::findMeetings(const WorldState& state, std::span<const HandNode> hands) {
+  const auto find = [&] { problem_.meetings.find(state, problem_.placed, bounds_.near(), bounds_.ways()); };
+  bounds_.find(state, hands, sceneryMoves() ? fastest_scenery_m_s_ : 0);
+  find();
+  if (bounds_.makeRoom(state, problem_.meetings.all())) find();
 }
 
-// Nothing moves farther in this step: twice the speed of the fastest, for one that is hit, and two that meet. A hand
-// that is far beyond a surface counts by what it does to bodies.
-double BodyStepper::margin(std::span<const HandNode> hands) const {
-  double fastest = 0;
-  for (const std::size_t i : problem_.awake)
-    fastest =
-        std::max(fastest, problem_.nodes[i].velocity.norm() + problem_.nodes[i].spin.norm() * problem_.reachOf(i));
-  for (const HandNode& hand : hands) fastest = std::max(fastest, fastestPushed_m_s(hand));
-  if (sceneryMoves()) fastest = std::max(fastest, fastest_scenery_m_s_);
-  return 4 * problem_.period_s * (fastest + joints_.speed()) + kTouching_m;
-}
-
-void BodyStepper::solve(BodyStepReport& report) {
+void BodyStepper::solve(BodyStepReport& report, Accuracy accuracy) {
   int sweeps = 0;
-  report.converged = solver_.solve(problem_, sweeps);
+  report.converged = solver_.solve(problem_, accuracy, work_, sweeps);
   report.sweeps = std::max(report.sweeps, sweeps);
 }
 
+bool BodyStepper::addPassed(WorldState& state, Accuracy accuracy) {
+  work_.spend(kUpdatesOfMeeting * static_cast<int>(problem_.meetings.all().size()));
+  return contacts_.addPassed(state, accuracy);
+}
+
+// An impact at the foot of a stack takes a round for each of its bodies. Half of the work is left for exact impulses.
+void BodyStepper::findRows(WorldState& state, BodyStepReport& report) {
+  const auto has_work = [&] { return 2 * work_.left() > StepWork::kMax; };
+  solve(report, Accuracy::kRough);
+  for (int round = 0; round < kRounds && has_work() && addPassed(state, Accuracy::kRough); ++round)
+    solve(report, Accuracy::kRough);
+}
+
 void BodyStepper::bounce(BodyStepReport& report) {
+  std::fill(bounced_.begin(), bounced_.end(), 0);
   if (!impacts_.find(problem_.rows)) return;
-  solve(report);
+  for (const std::size_t i : problem_.awake) unbounced_[i] = problem_.nodes[i].spin;
+  solve(report, Accuracy::kExact);
   for (int time = 1; time <= kWeakerTimes && impacts_.weaken(problem_.rows, time == kWeakerTimes); ++time)
-    solve(report);
+    solve(report, Accuracy::kExact);
+  for (const std::size_t i : problem_.awake) bounced_[i] = problem_.nodes[i].spin != unbounced_[i] ? 1 : 0;
 }
 
 // What bears the hand and does not move is told as one, with key 0.
-void BodyStepper::tellHands(std::span<GivenImpulses> given) const {
+void BodyStepper::collectGiven(std::span<GivenImpulses> given) const {
   for (std::size_t hand = 0; hand < given.size(); ++hand) {
     BodyImpulse fixed;
     for (const Row& row : problem_.rows) {
@@ -206,18 +207,25 @@ void BodyStepper::slowHeld(WorldState& state) {
   }
 }
 
-// The angular momentum after the impulses stays; the turn is that of the spin before bounces.
+// The turn is that of the spin before bounces. The angular momentum stays, but for a body that bounces: it is as if the
+// bounce came at the end of the turn, at the same place of the body, so that its energy is the same there. That of the
+// same momentum would not be: a needle has it along its thin axis as soon as it has turned a little.
 void BodyStepper::move(WorldState& state) const {
   for (const std::size_t i : problem_.awake) {
     const Body& body = world().bodies[i];
     const Node& node = problem_.nodes[i];
     BodyState& one = state.bodies[i];
     const Vec3 momentum = inertiaOf(body, one) * node.spin;
+    const Eigen::Quaterniond before = one.turned;
     one.velocity = node.velocity;
     one.spin = plan_.ways().turns[i];
-    moveFreely(body, one, plan_.wayOf(i), plan_.ways().parts[i] * problem_.period_s);
-    one.spin = inverseInertia(body, one) * momentum;
-    state.energy.solver_J += momentum.dot(one.spin - node.spin) / 2;
+    moveFreely(problem_.axes[i], one, plan_.wayOf(i), plan_.ways().parts[i] * problem_.period_s);
+    if (bounced_[i] != 0) {
+      one.spin = one.turned * (before.conjugate() * node.spin);
+    } else {
+      one.spin = inverseInertia(body, one) * momentum;
+      state.energy.solver_J += momentum.dot(one.spin - node.spin) / 2;
+    }
   }
 }
 
@@ -237,44 +245,42 @@ void BodyStepper::wakeFromOutside(WorldState& state, std::span<const HandNode> h
   if (sceneryMoves()) wakeNearMoving(world(), state, problem_.times);
 }
 
-// The impulses of a step. `margin_m`: how far anything may go in it.
-BodyStepReport BodyStepper::findImpulses(WorldState& state, double period_s, double& margin_m,
-                                         std::span<const HandNode> hands, std::span<GivenImpulses> given) {
+BodyStepReport BodyStepper::findImpulses(WorldState& state, double period_s, std::span<const HandNode> hands,
+                                         std::span<GivenImpulses> given) {
   BodyStepReport report;
   begin(state, period_s);
   state.memory.release();
-  solver_.begin();
+  work_.begin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], given[hand]);
   problem_.unpushed = problem_.nodes;
   impacts_.begin();
   joints_.begin(state);
-  margin_m = margin(hands);
-  for (std::size_t hand = 0; hand < hands.size(); ++hand)
-    hand_rows_.add(hands[hand], hand, margin_m + hands[hand].stretch.norm(), state.memory);
-  problem_.meetings.find(state, problem_.placed, margin_m);
+  findMeetings(state, hands);
+  for (std::size_t hand = 0; hand < hands.size(); ++hand) hand_rows_.add(hands[hand], hand, state.memory);
   contacts_.addBearing(state.memory);
   for (Row& row : problem_.rows) prepareRow(row, problem_.nodes);
-  solve(report);
-  for (int round = 0; round < kBends && joints_.bend(state); ++round) solve(report);
-  for (int round = 0; round < kBends && joints_.refuse(state); ++round) solve(report);
-  for (int round = 0; round < kRounds && contacts_.addPassed(state); ++round) solve(report);
+  findRows(state, report);
+  solve(report, Accuracy::kExact);
+  for (int round = 0; round < kBends && joints_.bend(state); ++round) solve(report, Accuracy::kExact);
+  for (int round = 0; round < kBends && joints_.refuse(state); ++round) solve(report, Accuracy::kExact);
+  for (int round = 0; round < kRounds && work_.left() > 0 && addPassed(state, Accuracy::kExact); ++round)
+    solve(report, Accuracy::kExact);
   return report;
 }
 
 // A step that would push what sleeps wakes it, and begins anew.
 BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<const HandNode> hands,
                                  std::span<GivenImpulses> given, const StepTimes& times) {
-  double margin_m = 0;
   problem_.times = times;
   problem_.meetings.look(times.begin_ns);
   wakeFromOutside(state, hands);
   limitSpeeds(world(), state);
-  BodyStepReport report = findImpulses(state, period_s, margin_m, hands, given);
+  BodyStepReport report = findImpulses(state, period_s, hands, given);
   for (int time = 0; time < kRestarts && wakePushed(problem_, state); ++time)
-    report = findImpulses(state, period_s, margin_m, hands, given);
-  plan_.make(state, margin_m, report.converged);
+    report = findImpulses(state, period_s, hands, given);
+  plan_.make(state, report.converged);
   bounce(report);
-  tellHands(given);
+  collectGiven(given);
   book(state.energy, given);
   joints_.book(state);
   slowHeld(state);

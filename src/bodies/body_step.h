@@ -1,7 +1,7 @@
 // Body step: moves all bodies of a world by one step of the servo. The hands are nodes of the same solve.
 //
-//   velocities after gravity -> rows for what bore load and for the hands -> impulses -> rows for what would be passed
-//   through -> impulses -> plan of the motion -> bounces -> new poses
+//   velocities after gravity -> rows for what bore load and for the hands -> rough impulses -> rows for what would be
+//   passed through -> exact impulses -> plan of the motion -> bounces -> new poses
 #pragma once
 
 #include <memory>
@@ -13,6 +13,7 @@
 #include "bodies/impacts.h"
 #include "bodies/island_solver.h"
 #include "bodies/joint_rows.h"
+#include "bodies/motion_bounds.h"
 #include "bodies/motion_plan.h"
 
 namespace hl {
@@ -32,11 +33,13 @@ class BodyStepper {
   explicit BodyStepper(std::shared_ptr<const World> world)
       : problem_(std::move(world)),
         kept_(problem_.bodies()),
+        unbounced_(problem_.bodies()),
+        bounced_(problem_.bodies()),
         fastest_scenery_m_s_(problem_.world->fixed ? fastestScenery_m_s(*problem_.world->fixed) : 0) {}
   BodyStepper(const BodyStepper&) = delete;
   BodyStepper& operator=(const BodyStepper&) = delete;
 
-  /// Moves `state` by `period_s` (> 0). `given`: room for each hand's impulses, of kMostHands at most. `times`: the
+  /// Moves `state` by `period_s` (> 0). `given`: room for each hand's impulses, of kMaxHands at most. `times`: the
   /// step among the motions of the scene. RT-safe.
   BodyStepReport step(WorldState& state, double period_s, std::span<const HandNode> hands,
                       std::span<GivenImpulses> given, const StepTimes& times = {});
@@ -49,15 +52,16 @@ class BodyStepper {
  private:
   bool sceneryMoves() const;
   void wakeFromOutside(WorldState& state, std::span<const HandNode> hands) const;
-  BodyStepReport findImpulses(WorldState& state, double period_s, double& margin_m, std::span<const HandNode> hands,
+  BodyStepReport findImpulses(WorldState& state, double period_s, std::span<const HandNode> hands,
                               std::span<GivenImpulses> given);
   void begin(const WorldState& state, double period_s);
   void addHand(const HandNode& hand, GivenImpulses& given);
-  double fastestPushed_m_s(const HandNode& hand) const;
-  double margin(std::span<const HandNode> hands) const;
-  void solve(BodyStepReport& report);
+  void findMeetings(const WorldState& state, std::span<const HandNode> hands);
+  void solve(BodyStepReport& report, Accuracy accuracy);
+  void findRows(WorldState& state, BodyStepReport& report);
+  bool addPassed(WorldState& state, Accuracy accuracy);
   void bounce(BodyStepReport& report);
-  void tellHands(std::span<GivenImpulses> given) const;
+  void collectGiven(std::span<GivenImpulses> given) const;
   void book(EnergyBook& energy, std::span<const GivenImpulses> given) const;
   double keptBy(std::uint32_t group, double part, int stopped_short) const;
   void slowHeld(WorldState& state);
@@ -65,13 +69,17 @@ class BodyStepper {
 
   BodyProblem problem_;
   ContactRows contacts_{problem_};
-  HandRows hand_rows_{problem_, contacts_};
   JointRows joints_{problem_};
-  MotionPlan plan_{problem_, joints_};
+  MotionBounds bounds_{problem_, joints_};
+  HandRows hand_rows_{problem_, contacts_, bounds_};
+  MotionPlan plan_{problem_, joints_, bounds_};
   Impacts impacts_{problem_};
   Islands islands_{problem_.nodes.capacity()};
   IslandSolver solver_{problem_};
-  std::vector<double> kept_;  // of the velocity of a group that stopped short, by its first body
+  StepWork work_;
+  std::vector<double> kept_;     // of the velocity of a group that stopped short, by its first body
+  std::vector<Vec3> unbounced_;  // spins before bounces
+  std::vector<char> bounced_;    // of each body: its spin changed in the bounces of the step
   const double fastest_scenery_m_s_;
 };
 

@@ -33,6 +33,6 @@ struct Compound {
 };
 
 /// A body has no more: what a step costs is bounded.
-inline constexpr std::size_t kMostParts = 64;
+inline constexpr std::size_t kMaxParts = 64;
 
 }  // namespace hl

@@ -199,28 +199,47 @@ bool ContactRows::goesThrough(const Meeting& meeting, std::size_t number) const 
 }
 
 // What turns or is fast is looked at where it would end: its rows, if it has any, were made for the begin.
-void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting) {
+void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting, Accuracy accuracy) {
   bool predicted = false;
   for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) predicted |= goesThrough(meeting, point);
-  const Pace pace = paceOf(problem_, meeting);
+  const bool rough = accuracy == Accuracy::kRough;
+  const Pace pace = rough ? Pace{} : paceOf(problem_, meeting);
+  if (!predicted && !pace.fast && !pace.turns) return;
+  const PairAtEnd pair(problem_, state, meeting, plan_);
+  if (problem_.isKeptApart(meeting, pair)) return;
   Manifold end;
-  const auto overlap_at_end = [&] { return problem_.overlapAtEnd(state, meeting, plan_, end); };
-  if (predicted && (pace.fast || overlap_at_end() > kTouching_m)) {
-    for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) {
-      if (goesThrough(meeting, point) && !hasTwin(meeting, point, 0)) addRow(state.memory, meeting, point);
-    }
-  } else if ((pace.fast || pace.turns) && overlap_at_end() > kHeld_m) {
-    addRowsOfEnd(meeting, end);
+  const double overlap = overlapOf(pair, end);
+  // What was beside the triangle comes over it within the step.
+  const bool over = meeting.beside && overlap > kHeld_m && isByFace(pair.b, end.normal);
+  const bool by_begin = !over && predicted && (pace.fast || overlap > kTouching_m);
+  for (std::size_t point = 0; by_begin && point < meeting.manifold.points.size(); ++point) {
+    if (goesThrough(meeting, point) && !hasTwin(meeting, point, 0)) addRow(state.memory, meeting, point);
   }
+  const bool by_end = !by_begin && (pace.fast || pace.turns) && overlap > kHeld_m;
+  if (over || by_end) addRowsOfEnd(meeting, end);
 }
 
-bool ContactRows::addPassed(WorldState& state) {
+bool ContactRows::hasRow(const Meeting& meeting, std::size_t first, std::size_t end) const {
+  return std::any_of(problem_.rows.begin() + static_cast<std::ptrdiff_t>(first),
+                     problem_.rows.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](const Row& row) { return isOf(row, meeting); });
+}
+
+// The triangles beside a body come last, and wait if another one has just got a row: what rolls over a seam is borne by
+// that one, and would hop over the edge of the next.
+bool ContactRows::addPassed(WorldState& state, Accuracy accuracy) {
   const std::size_t before = problem_.rows.size();
   for (const std::size_t i : problem_.awake) {
     plan_.ways[i] = problem_.period_s * problem_.nodes[i].velocity;
     plan_.turns[i] = problem_.nodes[i].spin;
   }
-  for (Meeting& meeting : problem_.meetings.all()) addOfMeeting(state, meeting);
+  for (Meeting& meeting : problem_.meetings.all()) {
+    if (!meeting.beside) addOfMeeting(state, meeting, accuracy);
+  }
+  const std::size_t beside = problem_.rows.size();
+  for (Meeting& meeting : problem_.meetings.all()) {
+    if (meeting.beside && !hasRow(meeting, before, beside)) addOfMeeting(state, meeting, accuracy);
+  }
   for (std::size_t i = before; i < problem_.rows.size(); ++i) prepareRow(problem_.rows[i], problem_.nodes);
   return problem_.rows.size() > before;
 }

@@ -15,8 +15,9 @@ class ContactRows {
 
   /// Rows for what bore load in the last step, and has not come off since. RT-safe.
   void addBearing(ContactMemory& memory);
-  /// Rows for what the velocities found would pass through in this step. False: nothing. RT-safe.
-  bool addPassed(WorldState& state);
+  /// Rows for what the velocities found would pass through in this step. Those that are rough say where a pair comes
+  /// into touch, but not how it would end. False: nothing. RT-safe.
+  bool addPassed(WorldState& state, Accuracy accuracy);
   /// What the row begins with: the impulses that acted at its place in the last step. RT-safe.
   void recall(Row& row, ContactMemory& memory) const;
   /// The impulses of this step, for the next. RT-safe.
@@ -39,7 +40,9 @@ class ContactRows {
   /// Among the rows from number `first` on.
   bool hasTwin(const Meeting& meeting, std::size_t point, std::size_t first) const;
   bool goesThrough(const Meeting& meeting, std::size_t point) const;
-  void addOfMeeting(WorldState& state, Meeting& meeting);
+  void addOfMeeting(WorldState& state, Meeting& meeting, Accuracy accuracy);
+  /// Whether the meeting's pair has one of the rows from `first` to `end`.
+  bool hasRow(const Meeting& meeting, std::size_t first, std::size_t end) const;
   Vec3 placeOf(const Row& row) const;
 
   BodyProblem& problem_;

@@ -38,9 +38,9 @@ struct Convex {
 };
 
 /// No shape has more: the work of a step is bounded.
-inline constexpr std::size_t kMostVertices = 64, kMostFaces = 124;
+inline constexpr std::size_t kMaxVertices = 64, kMaxFaces = 124;
 /// Of the prism of a cylinder.
-inline constexpr std::size_t kCylinderSides = 32;
+inline constexpr std::size_t kCylinderSides = 32, kCylinderEnds = 2;
 
 /// Each argument > 0.
 Convex ballShape(double radius);

@@ -15,7 +15,7 @@ namespace {
 // Of the size of the surface.
 constexpr double kRounding = 1e-12;
 // Into which surfaces are cut. Solids have fewer; of sheets that cross each other, each cut of many makes more.
-constexpr std::size_t kMostFragments = 4000, kMostFragmentsOfOne = 4;
+constexpr std::size_t kMaxFragments = 4000, kMaxFragmentsOfOne = 4;
 // What it takes to make a piece, for each of its triangles, in looks.
 constexpr std::uint64_t kLooksToMake = 100;
 
@@ -82,7 +82,7 @@ class Cutter {
  private:
   bool mayGoOn() const {
     return looks_ < rules_.looks_of_each * whole_.surface().size() &&
-           fragments_ <= kMostFragments + kMostFragmentsOfOne * whole_.surface().size();
+           fragments_ <= kMaxFragments + kMaxFragmentsOfOne * whole_.surface().size();
   }
 
   HullExcess counted(const HullExcess& excess) {
@@ -168,10 +168,10 @@ class Cutter {
 }  // namespace
 
 std::vector<NearPiece> cutPieces(const CutPiece& whole, const CutRules& rules) {
-  constexpr int kMostRounds = 6;  // what is joined leaves room for cuts
+  constexpr int kMaxRounds = 6;  // what is joined leaves room for cuts
   Cutter cutter(whole, rules);
   std::vector<MeasuredPiece> measured = cutter.whole();
-  for (int i = 0; i < kMostRounds && cutter.needsCut(measured); ++i) {
+  for (int i = 0; i < kMaxRounds && cutter.needsCut(measured); ++i) {
     cutter.cut(measured);
     cutter.joinNeighbours(measured);
   }

@@ -31,7 +31,7 @@ struct Slab {
 /// thickness.
 Slab thinnestSlab(std::span<const Vec3> points, double size);
 
-/// Points in one plane with others are one face. Of a hull of more than kMostVertices those vertices are kept that
+/// Points in one plane with others are one face. Of a hull of more than kMaxVertices those vertices are kept that
 /// reach farthest: one by one, that which lies farthest outside of what is kept. Throws Error if a point is not finite,
 /// or if they all lie in a plane (thinner than a millionth of their size).
 Hull hullOf(std::span<const Vec3> points);

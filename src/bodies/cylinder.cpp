@@ -62,7 +62,7 @@ PlacedConvex turnedPrism(const PlacedConvex& cylinder, const Vec3& direction, Pr
     room.normals[2 + i] = cos_side * u + sin_side * w;
   }
   return {cylinder.shape, std::span<const Vec3>(room.vertices).first(2 * kCylinderSides),
-          std::span<const Vec3>(room.normals).first(kCylinderSides + 2), cylinder.centre};
+          std::span<const Vec3>(room.normals).first(kCylinderSides + 2), cylinder.centre, !side};
 }
 
 }  // namespace hl

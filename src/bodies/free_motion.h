@@ -5,9 +5,16 @@
 
 namespace hl {
 
+/// Of a rigid body: the directions about which it turns steadily.
+struct PrincipalAxes {
+  Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();  ///< from these axes to the object frame
+  Vec3 moments_kg_m2 = Vec3::Ones();                         ///< ascending
+};
+PrincipalAxes principalAxesOf(const Mass& mass);
+
 /// Moves the centre by `way`, and turns the body freely for `period_s` (> 0) from its present spin: the angular
-/// momentum stays the same to rounding, and the energy of a turn without contacts oscillates with the square of the
-/// step. RT-safe.
-void moveFreely(const Body& body, BodyState& state, const Vec3& way, double period_s);
+/// momentum stays the same to rounding. The turn of a body with two equal moments is exact, whatever its spin; the
+/// energy of another one oscillates with the square of the step, and does not drift. RT-safe.
+void moveFreely(const PrincipalAxes& body, BodyState& state, const Vec3& way, double period_s);
 
 }  // namespace hl

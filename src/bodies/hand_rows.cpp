@@ -12,17 +12,17 @@ namespace {
 // rad: near contacts with nearly the normal of another row of the hand are not looked at.
 constexpr double kSameNormal = 0.1;
 // Of the scene, no more than these: the nearest.
-constexpr std::size_t kMostNear = 16;
+constexpr std::size_t kMaxNear = 16;
 
 }  // namespace
 
-void HandRows::add(const HandNode& hand, std::size_t number, double margin, ContactMemory& memory) {
+void HandRows::add(const HandNode& hand, std::size_t number, ContactMemory& memory) {
   const auto node = static_cast<int>(problem_.bodies() + number);
   const std::uint64_t name = ~std::uint64_t{number};
   for (const HandContact& contact : hand.contacts) addHeld(contact, node, name, memory);
   if (!(hand.radius_m > 0)) return;
   const std::size_t before = problem_.rows.size();
-  addNearBodies(hand, node, name, margin, memory);
+  const double margin = addNearBodies(hand, node, name, memory);
   const bool meets_bodies = problem_.rows.size() > before ||
                             std::any_of(hand.contacts.begin(), hand.contacts.end(), [&](const HandContact& contact) {
                               return problem_.numberOf(contact.key) != Row::kFixed;
@@ -44,16 +44,23 @@ void HandRows::addHeld(const HandContact& contact, int node, std::uint64_t name,
   problem_.rows.push_back(row);
 }
 
-void HandRows::addNearBodies(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory) {
+// A body takes the proxy along as far as it goes itself. Returns how far (m) the scene may be that stops the proxy
+// then.
+double HandRows::addNearBodies(const HandNode& hand, int node, std::uint64_t name, ContactMemory& memory) {
+  const double own = hand.stretch.norm();
+  double farthest = own;
   for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+    const double margin = own + 2 * bounds_.ways().bodies[i];
     const double near = problem_.reachOf(i) + hand.radius_m + margin;
     if ((problem_.nodes[i].centre - hand.proxy).squaredNorm() > near * near) continue;
+    farthest = std::max(farthest, margin);
     Row row;
     row.pair = {name, problem_.world->bodies[i].key};
     row.a = node;
     row.b = static_cast<int>(i);
     for (const PlacedConvex& part : problem_.placed[i]) addNearPart(hand, row, part, margin, memory);
   }
+  return farthest;
 }
 
 // One row a part: along the line between the nearest points.
@@ -74,12 +81,12 @@ void HandRows::addNearScene(const HandNode& hand, int node, std::uint64_t name, 
     return std::tuple(x.distance, x.normal.x(), x.normal.y(), x.normal.z()) <
            std::tuple(y.distance, y.normal.x(), y.normal.y(), y.normal.z());
   };
-  FixedVector<ClosestPoint, kMostNear> near;  // a heap: the farthest first
+  FixedVector<ClosestPoint, kMaxNear> near;  // a heap: the farthest first
   scene.primitivesWithin(hand.proxy, hand.radius_m + margin, [&](PrimitiveId, const ClosestPoint& point) {
-    if (near.size() == kMostNear) {
+    if (near.size() == kMaxNear) {
       if (!nearer(point, near[0])) return;
       std::pop_heap(near.begin(), near.end(), nearer);
-      near.resize(kMostNear - 1);
+      near.resize(kMaxNear - 1);
     }
     near.push(point);
     std::push_heap(near.begin(), near.end(), nearer);

@@ -131,7 +131,7 @@ HullFaces simplified(const std::vector<Vec3>& points) {
   Numbers kept = extremes(points);
   HullFaces hull = hullOfSome(points, kept);
   double distance = 0;
-  while (kept.size() < kMostVertices) {
+  while (kept.size() < kMaxVertices) {
     kept.push_back(farthestOutside(shapeOf(points, hull), points, distance));
     hull = hullOfSome(points, kept);
   }
@@ -143,7 +143,7 @@ HullFaces simplified(const std::vector<Vec3>& points) {
 HullFaces hullFaces(const std::vector<Vec3>& points) {
   const Numbers corners = quickhull(points).points;
   const std::vector<Vec3> vertices = pointsOf(points, corners);
-  HullFaces hull = vertices.size() > kMostVertices ? simplified(vertices) : quickhull(vertices);
+  HullFaces hull = vertices.size() > kMaxVertices ? simplified(vertices) : quickhull(vertices);
   farthestOutside(shapeOf(vertices, hull), vertices, hull.error);
   for (std::size_t& point : hull.points) point = corners[point];
   return hull;

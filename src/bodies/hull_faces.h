@@ -16,7 +16,7 @@ struct HullFaces {
   double error = 0;                               ///< how far a point is outside, at most, in the unit of the points
 };
 
-/// Of points of a size of about 1 around the origin, not all in a plane. At most kMostVertices of them are kept: those
+/// Of points of a size of about 1 around the origin, not all in a plane. At most kMaxVertices of them are kept: those
 /// that reach farthest. Throws Error if there is no hull.
 HullFaces hullFaces(const std::vector<Vec3>& points);
 /// The faces of such points' hull, with all corners that there are; normals outward.

@@ -1,20 +1,20 @@
 #include "bodies/island_solver.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace hl {
 
 namespace {
 
-// Sweeps before and after each direct solve; and after the last, where they still do not end.
-constexpr int kFewSweeps = 3, kLastSweeps = 20;
-constexpr int kDirectSolves = 5;
-// Of single rows in a step, all sweeps of all solves; an island whose turn comes later has one direct solve, with
-// kFewSweeps before and after it. Of these kSmallUpdates in the last sweeps of an island: one hand that presses a body
-// against a wall is solved to the last digits.
-constexpr int kMostUpdates = 10'000;
-constexpr int kSmallUpdates = 4'000;
+// Sweeps of a rough solve, and the largest change of an impulse at its end over the largest impulse.
+constexpr int kRoughSweeps = 5;
+constexpr double kRoughlyDone = 1e-4;
+// Of an exact one: how often Newton's method is tried, its steps, and the sweeps after it.
+constexpr int kTries = 2, kNewtonSteps = 30, kSweeps = 20;
+// Updates of such sweeps in any case: one hand that presses a body against a wall is solved to the last digits.
+constexpr int kSmallUpdates = 1'000;
+// Sweeps that an island may have in any case.
+constexpr int kMinSweeps = 10;
 
 void restore(int number, std::span<Node> nodes, std::span<const Node> unpushed) {
   if (number == Row::kFixed) return;
@@ -47,58 +47,81 @@ void keepPassive(std::span<Row> rows, std::span<Node> nodes, std::span<const Nod
   }
 }
 
-bool isNew(const Row& row) { return row.solved == Row::Solved::kNo; }
+// Whether something in the island has changed since it was solved so accurately.
+bool needsSolve(std::span<const Row> rows, Accuracy accuracy) {
+  const Row::Solved least = accuracy == Accuracy::kExact ? Row::Solved::kInPart : Row::Solved::kRoughly;
+  return std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.solved < least; });
+}
+
+void mark(std::span<Row> rows, Row::Solved solved) {
+  for (Row& row : rows) row.solved = solved;
+}
+
 bool isSolved(const Row& row) { return row.solved == Row::Solved::kWhole; }
 
 }  // namespace
 
 IslandSolver::IslandSolver(const BodyProblem& problem)
-    : islands_(problem.nodes.capacity()), sweeps_(problem.nodes.capacity()), direct_(problem.nodes.capacity()) {
+    : islands_(problem.nodes.capacity()),
+      sweeps_(problem.nodes.capacity()),
+      newton_(problem.nodes.capacity(), problem.rows.capacity()) {
+  unsolved_.reserve(problem.nodes.capacity());
   row_room_.reserve(problem.rows.capacity());
   joints_.reserve(problem.joints.blocks.size());
   joint_room_.reserve(problem.joints.blocks.size());
 }
 
-void IslandSolver::begin() { updates_left_ = kMostUpdates; }
-
-bool IslandSolver::solveContacts(std::span<Row> rows, BodyProblem& problem, int& sweeps) {
-  const bool converged = findContacts(rows, problem.nodes, problem.period_s, sweeps);
-  if (!converged) keepPassive(rows, problem.nodes, problem.unpushed);
+// After newton_.begin(). False as well if it has no work left for a step.
+bool IslandSolver::goByNewton(std::span<Row> rows, BodyProblem& problem, int& work) {
+  const int most = std::min(work / newton_.updatesOfStep(), kNewtonSteps);
+  const bool converged = newton_.solve(rows, problem.nodes, problem.period_s, most);
+  work -= newton_.steps() * newton_.updatesOfStep();
   return converged;
 }
 
-bool IslandSolver::findContacts(std::span<Row> rows, std::span<Node> nodes, double period_s, int& sweeps) {
+bool IslandSolver::findContacts(std::span<Row> rows, BodyProblem& problem, int& work, int& sweeps) {
   const int count = static_cast<int>(rows.size());
-  double last_change = std::numeric_limits<double>::infinity();
-  for (int time = 0;; ++time) {
-    const RowSolver::Report report = sweep(rows, nodes, period_s, kFewSweeps, sweeps);
+  const bool fits = newton_.begin(rows, problem.nodes);
+  for (int time = 0; time < kTries && work > 0; ++time) {
+    if (fits && goByNewton(rows, problem, work)) return true;
+    RowSolverLimits limits;
+    limits.sweeps = std::clamp(work / count, 1, std::max(kSweeps, kSmallUpdates / count));
+    const RowSolver::Report report = sweeps_.solve(rows, {}, problem.nodes, problem.period_s, limits);
+    sweeps += report.sweeps;
+    work -= report.sweeps * count;
     if (report.converged) return true;
-    if (updates_left_ <= 0 && time > 0) return false;
-    // A direct solve that did not help began with other contacts than those of the solution, and so would the next.
-    if (time == kDirectSolves || report.change > last_change) break;
-    last_change = report.change;
-    direct_.solve(rows, nodes, period_s);
   }
-  const int most = std::max(kLastSweeps, kSmallUpdates / count);
-  return sweep(rows, nodes, period_s, std::clamp(updates_left_ / count, kFewSweeps, most), sweeps).converged;
+  return false;
 }
 
-RowSolver::Report IslandSolver::sweep(std::span<Row> rows, std::span<Node> nodes, double period_s, int most,
-                                      int& sweeps) {
-  RowSolverLimits limits;
-  limits.sweeps = most;
-  const RowSolver::Report report = sweeps_.solve(rows, {}, nodes, period_s, limits);
-  sweeps += report.sweeps;
-  updates_left_ -= report.sweeps * static_cast<int>(rows.size());
-  return report;
+bool IslandSolver::finish(std::span<Row> rows, BodyProblem& problem, StepWork& work, int& sweeps) {
+  const int most = std::max(work.left() / 2, kMinSweeps * static_cast<int>(rows.size()));
+  int left = most;
+  const bool converged = findContacts(rows, problem, left, sweeps);
+  if (!converged) keepPassive(rows, problem.nodes, problem.unpushed);
+  work.spend(most - left);
+  return converged;
 }
 
-bool IslandSolver::solveJoined(std::span<Row> rows, const JointPart& joints, std::span<Node> nodes, double period_s,
-                               int& sweeps) {
-  const RowSolver::Report report =
-      sweeps_.solve(rows, joints, nodes, period_s, limitsFor(rows.size() + joints.set->work(joints.numbers)));
+Row::Solved IslandSolver::beginJoined(const Part& part, BodyProblem& problem, int& sweeps) {
+  const RowSolverLimits limits = limitsFor(part.rows.size() + part.joints.set->work(part.joints.numbers));
+  const RowSolver::Report report = sweeps_.solve(part.rows, part.joints, problem.nodes, problem.period_s, limits);
   sweeps = report.sweeps;
-  return report.converged;
+  return report.converged ? Row::Solved::kWhole : Row::Solved::kInPart;
+}
+
+// Most islands are solved by the first sweep: they lie as they lay.
+Row::Solved IslandSolver::begin(const Part& part, BodyProblem& problem, Accuracy accuracy, StepWork& work,
+                                int& sweeps) {
+  if (accuracy == Accuracy::kExact && !part.joints.numbers.empty()) return beginJoined(part, problem, sweeps);
+  RowSolverLimits limits;
+  limits.sweeps = accuracy == Accuracy::kRough ? kRoughSweeps : 1;
+  if (accuracy == Accuracy::kRough) limits.done = kRoughlyDone;
+  const RowSolver::Report report = sweeps_.solve(part.rows, part.joints, problem.nodes, problem.period_s, limits);
+  sweeps = report.sweeps;
+  work.spend(report.sweeps * static_cast<int>(part.rows.size()));
+  if (accuracy == Accuracy::kRough) return Row::Solved::kRoughly;
+  return report.converged ? Row::Solved::kWhole : Row::Solved::kNo;
 }
 
 void IslandSolver::gather(BodyProblem& problem) {
@@ -129,24 +152,43 @@ std::span<const std::uint32_t> IslandSolver::takeJoints(const BodyProblem& probl
   return std::span(joints_).subspan(begin, next_joint_ - begin);
 }
 
-bool IslandSolver::solve(BodyProblem& problem, int& sweeps) {
+bool IslandSolver::hasNext(const BodyProblem& problem) const {
+  return next_row_ < problem.rows.size() || next_joint_ < joints_.size();
+}
+
+IslandSolver::Part IslandSolver::next(BodyProblem& problem) {
+  int island = static_cast<int>(problem.nodes.size());
+  if (next_row_ < problem.rows.size()) island = islands_.of(problem.rows[next_row_].a);
+  if (next_joint_ < joints_.size())
+    island = std::min(island, islands_.of(problem.joints.blocks[joints_[next_joint_]].a));
+  const std::span<Row> rows = takeRows(problem, island);
+  return {rows, {&problem.joints, takeJoints(problem, island)}};
+}
+
+// Which hard island is first, and so may have the most work, changes from step to step: after a while each has been
+// solved, and what is solved is easy in the next step.
+bool IslandSolver::solve(BodyProblem& problem, Accuracy accuracy, StepWork& work, int& sweeps) {
   gather(problem);
+  unsolved_.clear();
   bool converged = true;
-  while (next_row_ < problem.rows.size() || next_joint_ < joints_.size()) {
-    int island = static_cast<int>(problem.nodes.size());
-    if (next_row_ < problem.rows.size()) island = islands_.of(problem.rows[next_row_].a);
-    if (next_joint_ < joints_.size())
-      island = std::min(island, islands_.of(problem.joints.blocks[joints_[next_joint_]].a));
-    const std::span<Row> rows = takeRows(problem, island);
-    const JointPart joints{&problem.joints, takeJoints(problem, island)};
-    if (joints.numbers.empty() && std::none_of(rows.begin(), rows.end(), isNew)) {
-      converged &= std::all_of(rows.begin(), rows.end(), isSolved);
+  while (hasNext(problem)) {
+    const Part part = next(problem);
+    if (part.joints.numbers.empty() && !needsSolve(part.rows, accuracy)) {
+      converged &= std::all_of(part.rows.begin(), part.rows.end(), isSolved);
       continue;
     }
     int made = 0;
-    const bool whole = joints.numbers.empty() ? solveContacts(rows, problem, made)
-                                              : solveJoined(rows, joints, problem.nodes, problem.period_s, made);
-    for (Row& row : rows) row.solved = whole ? Row::Solved::kWhole : Row::Solved::kInPart;
+    const Row::Solved solved = begin(part, problem, accuracy, work, made);
+    mark(part.rows, solved);
+    if (solved == Row::Solved::kNo) unsolved_.push_back(part.rows);
+    converged &= solved == Row::Solved::kNo || solved == Row::Solved::kWhole;
+    sweeps = std::max(sweeps, made);
+  }
+  for (std::size_t i = 0; i < unsolved_.size(); ++i) {
+    const std::span<Row> rows = unsolved_[(problem.step + i) % unsolved_.size()];
+    int made = 0;
+    const bool whole = finish(rows, problem, work, made);
+    mark(rows, whole ? Row::Solved::kWhole : Row::Solved::kInPart);
     converged &= whole;
     sweeps = std::max(sweeps, made);
   }

@@ -16,8 +16,8 @@ double leastChange(const JointBlock& block, std::span<const Node> nodes) {
     speed += node.velocity.norm() + block.lever_m * node.spin.norm();
     mobility = std::max(mobility, node.inverse_mass);
   }
-  constexpr double kRounding = 1e-13;
-  return mobility > 0 ? kRounding * speed / mobility : 0;
+  constexpr double kSpeedRounding = 1e-13;
+  return mobility > 0 ? kSpeedRounding * speed / mobility : 0;
 }
 
 // The velocity along the coordinate with spring, damper and table, where all else has left it at `free`. The table's
@@ -33,10 +33,10 @@ double drivenVelocity(const CoordinateRow& row, double free, double now, double 
   const auto excess = [&](double v) {
     return whole * v - straight - pushes * row.table->meanBetween(row.from, row.from + period_s * v);
   };
-  constexpr int kMostTries = 100;
+  constexpr int kMaxTries = 100;
   const double done = 1e-15 * (std::abs(low) + std::abs(high));
   double at_low = excess(low), at_high = excess(high), v = std::clamp(now, low, high);
-  for (int i = 0; i < kMostTries && high - low > done; ++i) {
+  for (int i = 0; i < kMaxTries && high - low > done; ++i) {
     const double value = excess(v);
     if (value == 0) return v;
     (value < 0 ? low : high) = v;

@@ -47,7 +47,7 @@ class JointChecker {
   void table() const {
     const ForceTable& table = joint_.table;
     demand(table.position.size() == table.force.size(), "its table must have a force for each position");
-    demand(table.position.size() <= kMostTableRows, "its table must have at most 256 rows");
+    demand(table.position.size() <= kMaxTableRows, "its table must have at most 256 rows");
     for (std::size_t i = 0; i < table.position.size(); ++i) {
       demand(std::isfinite(table.position[i]) && std::isfinite(table.force[i]), "its table has a value not finite");
       demand(i == 0 || table.position[i - 1] < table.position[i], "the positions of its table must increase");

@@ -9,7 +9,7 @@
 namespace hl {
 
 /// A force table has no more rows: the work of a step is bounded.
-inline constexpr std::size_t kMostTableRows = 256;
+inline constexpr std::size_t kMaxTableRows = 256;
 
 /// Throws Error with a line that says which joint, and what is wrong with it. `is_body`: whether a body has this key.
 void checkJoint(const Joint& joint, const std::function<bool(std::uint64_t key)>& is_body);

@@ -10,8 +10,8 @@ namespace hl {
 namespace {
 
 // m, or rad of a coordinate: a joint as near as that to its place is there. What is more goes into the velocity from
-// kBent on, and is straightened from kStraight on; at most kMostStraight a step.
-constexpr double kBent = 1e-9, kStraight = 1e-10, kMostStraight_m = 1e-3;
+// kBent on, and is straightened from kStraight on; at most kMaxStraight a step.
+constexpr double kBent = 1e-9, kStraight = 1e-10, kMaxStraight_m = 1e-3;
 
 // Of the kinetic energy of its two bodies, what holds a joint may give back this part later.
 constexpr double kSpare = 0.01;
@@ -99,15 +99,14 @@ void JointRows::setLimits(JointBlock& block, double bent) const {
   row.most = (std::max(block.joint->high - row.from, 0.0) - bent) / problem_.period_s;
 }
 
-double JointRows::speed() const {
-  double most = 0;
+void JointRows::findSpeeds(std::span<double> speeds) const {
   for (const std::uint32_t i : problem_.awake_joints) {
     const JointBlock& block = problem_.joints.blocks[i];
     const CoordinateRow& row = block.coordinate;
     double impulse = std::abs(row.pull);
     if (row.table != nullptr)
       impulse += problem_.period_s * std::max(std::abs(row.table->lowest()), std::abs(row.table->highest()));
-    double speed = std::min(off_[i].norm(), kMostStraight_m) / problem_.period_s;
+    double speed = std::min(off_[i].norm(), kMaxStraight_m) / problem_.period_s;
     for (const int number : {block.a, block.b}) {
       if (number == Row::kFixed || impulse == 0) continue;
       const auto body = static_cast<std::size_t>(number);
@@ -116,9 +115,12 @@ double JointRows::speed() const {
       speed += impulse * (node.inverse_mass * row.axis.line.norm() +
                           (node.inverse_inertia * turn).norm() * problem_.reachOf(body));
     }
-    most = std::max(most, speed);
+    for (const int number : {block.a, block.b}) {
+      if (number == Row::kFixed) continue;
+      double& most = speeds[static_cast<std::size_t>(number)];
+      most = std::max(most, speed);
+    }
   }
-  return most;
 }
 
 JointPlace JointRows::placeAtEnd(const WorldState& state, const JointBlock& block, const BodyWays& plan) const {
@@ -204,7 +206,7 @@ double JointRows::straighten(const WorldState& state, const BodyWays& plan, Join
     const Joint& joint = *block.joint;
     const JointPlace end = placeAtEnd(state, block, plan);
     Vec6 off = end.off(block.lever_m);
-    if (off.norm() > kMostStraight_m) off *= kMostStraight_m / off.norm();
+    if (off.norm() > kMaxStraight_m) off *= kMaxStraight_m / off.norm();
     block.wanted = -off / problem_.period_s;
     block.held.setZero();
     block.least_change = 0;
@@ -214,7 +216,7 @@ double JointRows::straighten(const WorldState& state, const BodyWays& plan, Join
     limits.axis = block.coordinate.axis;
     limits.mobility = block.coordinate.mobility;
     limits.lever_m = block.coordinate.lever_m;
-    const double at_end = end.coordinate(block.coordinate.from), most = kMostStraight_m / limits.lever_m;
+    const double at_end = end.coordinate(block.coordinate.from), most = kMaxStraight_m / limits.lever_m;
     limits.least = std::min(joint.low - at_end, most) / problem_.period_s;
     limits.most = std::max(joint.high - at_end, -most) / problem_.period_s;
     block.coordinate = limits;

@@ -19,8 +19,8 @@ class JointRows {
 
   /// Makes the blocks and applies the impulses of the last step. RT-safe, as all below.
   void begin(const WorldState& state);
-  /// m/s, no more than springs and tables, and what is off, add to the speed of a point.
-  double speed() const;
+  /// Raises, of each body, to what springs and tables, and what is off, may add at most to the speed of a point, m/s.
+  void findSpeeds(std::span<double> speeds) const;
   /// Where the velocities found do not take a joint along its curve, asks for others. False: they do.
   bool bend(const WorldState& state);
   /// Asks for velocities along the tangents where chords would feed energy. False: they do not.

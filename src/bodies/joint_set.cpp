@@ -19,7 +19,7 @@ std::vector<JointBlock> blocksOf(const World& world) {
 
 // Of the mobility of its two bodies alone, a coordinate has at least this part, and a loop gives way by it, though
 // other joints may hold them still.
-constexpr double kLeastMobility = 1e-3, kSoft = 1e-4;
+constexpr double kMinMobility = 1e-3, kSoft = 1e-4;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ JointSet::JointSet(const World& world) : blocks(blocksOf(world)), trees(world, b
 double JointSet::mobilityAlong(const JointBlock& block, std::span<const Node> nodes) {
   const JointAxis& axis = block.coordinate.axis;
   const double alone = mobilityBetween(axis, axis, block, nodes);
-  return std::max(velocityAlong(axis, block, trees.afterImpulse(axis, block, blocks, nodes)), kLeastMobility * alone);
+  return std::max(velocityAlong(axis, block, trees.afterImpulse(axis, block, blocks, nodes)), kMinMobility * alone);
 }
 
 void JointSet::prepareLoop(JointBlock& block, std::span<const Node> nodes) {

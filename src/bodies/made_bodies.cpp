@@ -33,7 +33,7 @@ class MadeBodies {
     std::erase_if(made_, [](const auto& one) { return one.first.expired(); });
     std::deque<Made>& all = made_[shape];
     all.push_back(std::move(made));
-    if (all.size() > kMostOfAShape) all.pop_front();
+    if (all.size() > kMaxOfAShape) all.pop_front();
   }
 
  private:

@@ -10,9 +10,9 @@
 
 namespace hl {
 
-/// As bodyOf() of the shape's model. Kept as long as the shape is; of one shape the last kMostOfAShape of different
+/// As bodyOf() of the shape's model. Kept as long as the shape is; of one shape the last kMaxOfAShape of different
 /// specs. By any thread.
 std::shared_ptr<const Body> madeBody(const std::shared_ptr<const Shape>& shape, const BodySpec& spec);
-inline constexpr std::size_t kMostOfAShape = 64;
+inline constexpr std::size_t kMaxOfAShape = 64;
 
 }  // namespace hl

@@ -20,7 +20,10 @@ constexpr double kPreference = 1e-6;
 // the axis of two edges is nearly the normal of a face: one point where edges pass would be in the place of all that
 // the face bears.
 constexpr double kParallel = 1e-6;
-constexpr std::size_t kMostCorners = 64;  // of a polygon while it is clipped
+constexpr std::size_t kMaxCorners = 64;  // of a polygon while it is clipped
+// Of the size of the smaller shape: where a grown shape is nearer than the points on a face by more than this, its end
+// beside the face bears, and the face does not.
+constexpr double kBesideFace = 1e-4;
 
 struct Axis {
   Vec3 normal = Vec3::UnitZ();  // from b toward a
@@ -53,8 +56,8 @@ Vec3 directionOf(const PlacedConvex& of, std::size_t number) {
 }
 
 // Directions of edges, one bit each.
-constexpr std::size_t kMostDirections = 3 * kMostVertices - 6;
-using Directions = std::bitset<kMostDirections>;
+constexpr std::size_t kMaxDirections = 3 * kMaxVertices - 6;
+using Directions = std::bitset<kMaxDirections>;
 
 // Those of edges that come below this height along the normal.
 Directions directionsBelow(const PlacedConvex& of, const Vec3& normal, double height) {
@@ -106,7 +109,7 @@ const Convex::Edge& extremeEdge(const PlacedConvex& of, std::size_t direction, c
   return *best;
 }
 
-using ManifoldPoints = FixedVector<ManifoldPoint, kMostCorners>;
+using ManifoldPoints = FixedVector<ManifoldPoint, kMaxCorners>;
 
 // Adds the point halfway between `on_a` and `on_b`, which lie `distance` apart along the normal before the shapes are
 // grown.
@@ -119,11 +122,11 @@ void addPoint(Points& points, const Vec3& normal, const Vec3& on_a, double dista
 
 // All, if there is room; else the deepest, and one by one that which is farthest from those that are there.
 void keepSpread(ManifoldPoints& found, Manifold& out) {
-  if (found.size() <= Manifold::kMostPoints) {
+  if (found.size() <= Manifold::kMaxPoints) {
     for (const ManifoldPoint& point : found) out.points.push(point);
     return;
   }
-  std::array<double, kMostCorners> from_others;
+  std::array<double, kMaxCorners> from_others;
   from_others.fill(kUnparted);
   std::size_t next = 0;
   for (std::size_t i = 1; i < found.size(); ++i) {
@@ -138,9 +141,10 @@ void keepSpread(ManifoldPoints& found, Manifold& out) {
   }
 }
 
-using Polygon = FixedVector<Vec3, kMostCorners>;
+using Polygon = FixedVector<Vec3, kMaxCorners>;
 
-// What `of` turns toward the face: the face most opposed to its normal, or a whole segment.
+// What `of` turns toward the face: the face most opposed to its normal, or a whole segment. Of a cylinder's side it is
+// the line that touches: the next edge of the prism would hold it up as it rolls.
 Polygon incidentPolygon(const PlacedConvex& of, const Vec3& normal) {
   Polygon polygon;
   if (of.normals.empty()) {
@@ -150,6 +154,11 @@ Polygon incidentPolygon(const PlacedConvex& of, const Vec3& normal) {
   std::size_t opposed = 0;
   for (std::size_t face = 1; face < of.normals.size(); ++face) {
     if (of.normals[face].dot(normal) < of.normals[opposed].dot(normal)) opposed = face;
+  }
+  if (of.turned_edge && opposed >= kCylinderEnds) {
+    polygon.push(of.vertices[0]);
+    polygon.push(of.vertices[1]);
+    return polygon;
   }
   for (const Convex::Index corner : of.shape->faces[opposed].corners) polygon.push(of.vertices[corner]);
   return polygon;
@@ -218,6 +227,12 @@ bool pointAndPolytope(const PlacedConvex& point, const PlacedConvex& polytope, d
   return !out.points.empty();
 }
 
+double leastGapOf(const Manifold& manifold) {
+  double least = kUnparted;
+  for (const ManifoldPoint& point : manifold.points) least = std::min(least, point.gap);
+  return least;
+}
+
 bool manifoldOfPolytopes(const PlacedConvex& a, const PlacedConvex& b, double margin, Manifold& out) {
   out.points.clear();
   if (a.vertices.size() == 1) return pointAndPolytope(a, b, 1, margin, out);
@@ -241,9 +256,14 @@ bool manifoldOfPolytopes(const PlacedConvex& a, const PlacedConvex& b, double ma
     }
   }
   if (edges_part && out.points.empty()) crossEdges(a, b, of_edges, margin, out);
-  if (!out.points.empty()) return true;
+  // Clipping cuts off what of a grown shape reaches round the rim of the face.
+  const double slack = preference / kPreference * kBesideFace;
+  const double least = leastGapOf(out);
+  if (!out.points.empty() && (!(radii > 0) || least <= best_face - radii + slack)) return true;
   NearestPoints nearest;
-  if (!nearestPoints(a, b, nearest)) return false;
+  if (!nearestPoints(a, b, nearest)) return !out.points.empty();
+  if (least <= nearest.distance - radii + slack) return true;
+  out.points.clear();
   out.normal = nearest.normal;
   addPoint(out.points, out.normal, nearest.on_a, nearest.distance, a.shape->radius, b.shape->radius, margin);
   return !out.points.empty();
@@ -252,7 +272,7 @@ bool manifoldOfPolytopes(const PlacedConvex& a, const PlacedConvex& b, double ma
 // What the manifold of a prism tells of how the cylinder is to be turned: `sign` is 1 for a. Where a side of the prism
 // was met by something narrow, the tangent plane there is the true one.
 PlacedConvex turnedFor(const Manifold& rough, const PlacedConvex& cylinder, double sign, PlacedRoom& room) {
-  const auto sides = cylinder.normals.subspan(2);
+  const auto sides = cylinder.normals.subspan(kCylinderEnds);
   const Vec3 outward = -sign * rough.normal;
   if (std::find(sides.begin(), sides.end(), outward) == sides.end())
     return turnedPrism(cylinder, outward, PrismTurn::kEdge, room);
@@ -260,6 +280,18 @@ PlacedConvex turnedFor(const Manifold& rough, const PlacedConvex& cylinder, doub
                                         [](const auto& x, const auto& y) { return x.gap < y.gap; });
   return turnedPrism(cylinder, radialOf(cylinder, deepest->point + deepest->gap / 2 * outward, outward),
                      PrismTurn::kSide, room);
+}
+
+bool isFaceOf(const PlacedConvex& shape, const Vec3& normal) {
+  return std::any_of(shape.normals.begin(), shape.normals.end(),
+                     [&](const Vec3& one) { return one == normal || one == -normal; });
+}
+
+bool manifoldOfTurned(const Manifold& rough, const PlacedConvex& a, const PlacedConvex& b, double margin,
+                      Manifold& out) {
+  PlacedRoom room_a, room_b;
+  return manifoldOfPolytopes(isRound(a) ? turnedFor(rough, a, 1, room_a) : a,
+                             isRound(b) ? turnedFor(rough, b, -1, room_b) : b, margin, out);
 }
 
 }  // namespace
@@ -270,10 +302,14 @@ bool findManifold(const PlacedConvex& a, const PlacedConvex& b, double margin, M
   constexpr double kSagitta = 0.005;  // of the radius: 1 - cos(pi / 32)
   const double rough_margin = margin + kSagitta * (a.shape->round_radius + b.shape->round_radius);
   if (!manifoldOfPolytopes(a, b, rough_margin, out)) return false;
-  PlacedRoom room_a, room_b;
   const Manifold rough = out;
-  return manifoldOfPolytopes(isRound(a) ? turnedFor(rough, a, 1, room_a) : a,
-                             isRound(b) ? turnedFor(rough, b, -1, room_b) : b, margin, out);
+  if (!manifoldOfTurned(rough, a, b, margin, out)) return false;
+  const Manifold found = out;
+  // Near the rim of a face it may have been turned for another normal than that of the face.
+  const bool on_face = (!isRound(a) && isFaceOf(a, found.normal)) || (!isRound(b) && isFaceOf(b, found.normal));
+  if (!on_face || found.normal == rough.normal) return true;
+  if (!manifoldOfTurned(found, a, b, margin, out)) out = found;
+  return true;
 }
 
 }  // namespace hl

@@ -16,9 +16,9 @@ struct ManifoldPoint {
 };
 
 struct Manifold {
-  static constexpr std::size_t kMostPoints = 8;
+  static constexpr std::size_t kMaxPoints = 8;
   Vec3 normal = Vec3::UnitZ();  ///< unit, world, from b toward a
-  FixedVector<ManifoldPoint, kMostPoints> points;
+  FixedVector<ManifoldPoint, kMaxPoints> points;
 };
 
 /// The points of `a` and `b` nearer than `margin` (m, >= 0) along the normal. False, and `out` unspecified, if there

@@ -1,35 +1,49 @@
 #include "bodies/meetings.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <tuple>
 
 #include "bodies/row.h"
 
 namespace hl {
 
-Meetings::Meetings(const World& world) : along_x_(world.bodies.size()), joined_(world), fixed_(world.fixed) {
+namespace {
+
+// Cosine of the angle between a normal and that of a triangle, above which the two meet by its face.
+constexpr double kByFace = 1 - 1e-9;
+
+// What has corners slides, or tumbles: its rows must not wait for others.
+bool rolls(const PlacedConvex& part) { return part.shape->radius > 0 || isRound(part); }
+
+bool isBeside(const PlacedConvex& primitive, const Vec3& normal) {
+  if (primitive.normals.empty() || isByFace(primitive, normal)) return false;
+  return std::abs(normal.dot(primitive.normals[0])) >= kSameWay;
+}
+
+}  // namespace
+
+bool isByFace(const PlacedConvex& primitive, const Vec3& normal) {
+  return !primitive.normals.empty() && std::abs(normal.dot(primitive.normals[0])) >= kByFace;
+}
+
+Meetings::Meetings(const World& world) : joined_(world), fixed_(world.fixed) {
   std::size_t room = 0;
   for (const Body& body : world.bodies) room += kMeetingsPerBody + kMeetingsPerPart * (body.shape.parts.size() - 1);
   meetings_.reserve(room);
   near_.reserve(NearPrimitives::kOctants * NearPrimitives::kPerOctant);
-  std::iota(along_x_.begin(), along_x_.end(), 0u);
-  for (const Body& body : world.bodies) {
-    reach_.push_back(body.shape.reach);
-    widest_ = std::max(widest_, body.shape.reach);
-  }
-  low_x_.resize(world.bodies.size());
 }
 
 void Meetings::look(std::int64_t time_ns) {
   if (fixed_) scene_.emplace(*fixed_, time_ns, recent_);
 }
 
-void Meetings::find(const WorldState& state, const PlacedBodies& placed, double margin) {
+void Meetings::find(const WorldState& state, const PlacedBodies& placed, const SweepAndPrune& near,
+                    const MostWays& ways) {
   meetings_.clear();
   dropped_ = 0;
-  if (scene_) withScene(state, placed, margin);
-  withBodies(state, placed, margin);
+  if (scene_) withScene(state, placed, ways);
+  withBodies(state, placed, near, ways);
 }
 
 void Meetings::add(const Meeting& meeting) {
@@ -39,14 +53,14 @@ void Meetings::add(const Meeting& meeting) {
     ++dropped_;
 }
 
-void Meetings::withScene(const WorldState& state, const PlacedBodies& placed, double margin) {
+void Meetings::withScene(const WorldState& state, const PlacedBodies& placed, const MostWays& ways) {
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
     if (state.bodies[i].island != 0) continue;
     Meeting meeting;
     meeting.a = static_cast<int>(i);
     meeting.b = Row::kFixed;
     for (const PlacedConvex& part : placed[i]) {
-      partWithScene(meeting, part, margin);
+      partWithScene(meeting, part, ways.to_scene[i] + ways.scenery);
       ++meeting.part_a;
     }
   }
@@ -69,18 +83,15 @@ void Meetings::partWithScene(Meeting& meeting, const PlacedConvex& part, double 
   std::sort(near_.begin(), near_.end(), [&](PrimitiveId x, PrimitiveId y) { return scene_->precedes(x, y); });
   for (const PrimitiveId id : near_) {
     meeting.primitive = id;
-    if (findManifold(part, placedOf(id, room), margin, meeting.manifold)) add(meeting);
+    const PlacedConvex primitive = placedOf(id, room);
+    if (!findManifold(part, primitive, margin, meeting.manifold)) continue;
+    meeting.beside = rolls(part) && isBeside(primitive, meeting.manifold.normal);
+    add(meeting);
   }
 }
 
-// What sleeps is the second of a pair.
-void Meetings::meet(const WorldState& state, const PlacedBodies& placed, double margin, std::uint32_t one,
-                    std::uint32_t other) {
-  const double reach = reach_[one] + reach_[other] + margin;
-  if ((state.bodies[one].centre - state.bodies[other].centre).squaredNorm() > reach * reach) return;
-  if (joined_.has(one, other)) return;
-  const bool in_order = state.bodies[other].island != 0 || one < other;
-  const std::uint32_t a = in_order ? one : other, b = in_order ? other : one;
+void Meetings::meet(const PlacedBodies& placed, double margin, std::uint32_t a, std::uint32_t b) {
+  if (joined_.has(a, b)) return;
   Meeting meeting;
   meeting.a = static_cast<int>(a);
   meeting.b = static_cast<int>(b);
@@ -96,25 +107,14 @@ void Meetings::meet(const WorldState& state, const PlacedBodies& placed, double 
   }
 }
 
-// Sorted by their lowest x, each that is awake meets those that begin before it ends, and of those before it the
-// sleeping ones. The order of the step before is nearly right, so that sorting by insertion costs one pass.
-void Meetings::withBodies(const WorldState& state, const PlacedBodies& placed, double margin) {
-  for (std::size_t i = 0; i < low_x_.size(); ++i) low_x_[i] = state.bodies[i].centre.x() - reach_[i];
-  for (std::size_t i = 1; i < along_x_.size(); ++i) {
-    for (std::size_t j = i; j > 0 && low_x_[along_x_[j]] < low_x_[along_x_[j - 1]]; --j)
-      std::swap(along_x_[j], along_x_[j - 1]);
-  }
+// What sleeps is the second of a pair.
+void Meetings::withBodies(const WorldState& state, const PlacedBodies& placed, const SweepAndPrune& near,
+                          const MostWays& ways) {
   const std::size_t first = meetings_.size();
-  for (std::size_t i = 0; i < along_x_.size(); ++i) {
-    const std::uint32_t one = along_x_[i];
-    if (state.bodies[one].island != 0) continue;
-    const double begin = low_x_[one] - 2 * widest_ - margin, end = low_x_[one] + 2 * reach_[one] + margin;
-    for (std::size_t j = i + 1; j < along_x_.size() && low_x_[along_x_[j]] <= end; ++j)
-      meet(state, placed, margin, one, along_x_[j]);
-    for (std::size_t j = i; j > 0 && low_x_[along_x_[j - 1]] >= begin; --j) {
-      if (state.bodies[along_x_[j - 1]].island != 0) meet(state, placed, margin, one, along_x_[j - 1]);
-    }
-  }
+  near.forEachPair(state, ways.bodies, [&](std::uint32_t one, std::uint32_t other) {
+    const bool in_order = state.bodies[other].island != 0 || one < other;
+    meet(placed, ways.bodies[one] + ways.bodies[other], in_order ? one : other, in_order ? other : one);
+  });
   std::sort(meetings_.begin() + static_cast<std::ptrdiff_t>(first), meetings_.end(),
             [](const Meeting& x, const Meeting& y) {
               return std::tie(x.a, x.b, x.part_a, x.part_b) < std::tie(y.a, y.b, y.part_a, y.part_b);

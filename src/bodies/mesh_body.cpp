@@ -15,7 +15,7 @@ namespace hl {
 namespace {
 
 // kg; beyond them squares of numbers in a step are no longer exact enough.
-constexpr double kLeastMass_kg = 1e-9, kMostMass_kg = 1e15;
+constexpr double kMinMass_kg = 1e-9, kMaxMass_kg = 1e15;
 
 // A shape along an axis of the object: 0, 1 or 2.
 struct Bar {
@@ -47,7 +47,7 @@ void setTurned(Convex shape, const Mat3& by, Body& body) {
 
 double massOf(const BodySpec& spec, double volume_m3) {
   const double mass_kg = spec.mass_kg ? *spec.mass_kg : spec.density_kg_m3 * volume_m3;
-  if (!(mass_kg >= kLeastMass_kg && mass_kg <= kMostMass_kg))
+  if (!(mass_kg >= kMinMass_kg && mass_kg <= kMaxMass_kg))
     throw Error("a body must have a mass of 1e-9 to 1e15 kg, and this one has not: set its mass");
   return mass_kg;
 }

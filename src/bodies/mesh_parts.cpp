@@ -26,7 +26,7 @@ struct Part {
 
 std::vector<PieceMesh> meshesOfPieces(const Model& model) {
   auto pieces = piecesOf(model.positions, model.triangles);
-  if (pieces.size() > kMostParts) {  // all together are cut
+  if (pieces.size() > kMaxParts) {  // all together are cut
     for (std::size_t i = 1; i < pieces.size(); ++i)
       pieces[0].insert(pieces[0].end(), pieces[i].begin(), pieces[i].end());
     pieces.resize(1);
@@ -134,14 +134,14 @@ PartsOfPiece tryPiece(const PieceMesh& mesh, std::size_t number, double allowed_
   }
 }
 
-// A piece that is nearly convex is one part; what is left of kMostParts is shared among the others. A sliver that has
+// A piece that is nearly convex is one part; what is left of kMaxParts is shared among the others. A sliver that has
 // no hull is left out, unless it is all that there is.
 std::vector<Part> partsOf(const std::vector<PieceMesh>& meshes, double allowed_m, MeshParts& made) {
   std::vector<PartsOfPiece> pieces;
   for (std::size_t i = 0; i < meshes.size(); ++i) pieces.push_back(tryPiece(meshes[i], i, allowed_m, 1));
   const auto is_cut = [&](const PartsOfPiece& one) { return one.parts.excess_m > allowed_m; };
   auto cut = static_cast<std::size_t>(std::count_if(pieces.begin(), pieces.end(), is_cut));
-  std::size_t left = kMostParts - (meshes.size() - cut);
+  std::size_t left = kMaxParts - (meshes.size() - cut);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     if (!is_cut(pieces[i])) continue;
     pieces[i] = tryPiece(meshes[i], i, allowed_m, left / cut--);

@@ -25,8 +25,8 @@ std::vector<std::vector<Vec3>> cornersOfPieces(const Model& model);
 inline constexpr double kNearlyConvex = 0.02;
 
 /// Of the triangles; lines and points of the model are no part. A part that lies in the hull of another is none. Of
-/// more pieces than kMostParts all together are cut. The error is at most kNearlyConvex of the mesh's size, unless that
-/// needs more than kMostParts. A piece has the mass of its mesh if that is closed, and otherwise that of its parts; a
+/// more pieces than kMaxParts all together are cut. The error is at most kNearlyConvex of the mesh's size, unless that
+/// needs more than kMaxParts. A piece has the mass of its mesh if that is closed, and otherwise that of its parts; a
 /// hollow, which faces the other way, is taken off. Throws Error, one line that says what to do, if there is no
 /// triangle, or nothing but slivers.
 MeshParts partsOfMesh(const Model& model);

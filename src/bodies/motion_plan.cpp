@@ -6,17 +6,12 @@ namespace hl {
 
 namespace {
 
-// Of an overlap this part is removed in a step.
-constexpr double kPushedApart = 0.2;
 // What is left of an overlap, as it is but a part, is the next step's; joints are held to the last digits.
 constexpr int kSweepsApart = 10;
 // How often joints are put right.
 constexpr int kCorrections = 4;
 // Of what is off, nothing moves farther than this: a mechanism that is stretched out would be flung aside.
-constexpr double kMostMoved = 10;
-// m, and of the least overlap at which a pair has passed; a smaller overlap at the end of a step is left to
-// pushApart().
-constexpr double kLeft_m = 1e-5, kLeft = 0.25;
+constexpr double kMaxMoved = 10;
 // How often all pairs are looked at; each time what would pass goes a quarter of its part. Then it stays where it is,
 // as that place was clear.
 constexpr int kLooks = 8;
@@ -24,8 +19,12 @@ constexpr double kShorter = 0.25;
 
 }  // namespace
 
-MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
-    : problem_(problem), joints_(joints), joints_apart_(problem.joints), sweeps_(problem.nodes.capacity()) {
+MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints, const MotionBounds& bounds)
+    : problem_(problem),
+      joints_(joints),
+      bounds_(bounds),
+      joints_apart_(problem.joints),
+      sweeps_(problem.nodes.capacity()) {
   plan_.ways.resize(problem.bodies());
   plan_.turns.resize(problem.bodies());
   plan_.parts.resize(problem.bodies());
@@ -35,10 +34,10 @@ MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
   kept_ = plan_.parts;
 }
 
-void MotionPlan::make(const WorldState& state, double margin, bool converged) {
+void MotionPlan::make(const WorldState& state, bool converged) {
   goWithVelocities();
   correct(state);
-  limit(margin);
+  limit();
   stopShort(state, converged && !pressesDeeper());
 }
 
@@ -77,7 +76,7 @@ void MotionPlan::findOverlaps() {
     overlaps_.back().friction = 0;
     overlaps_.back().dragged.setZero();
     overlaps_.back().carried.setZero();
-    overlaps_.back().least_velocity = -kPushedApart * row.gap / problem_.period_s;
+    overlaps_.back().least_velocity = apartSpeed_m_s(-row.gap, problem_.period_s);
   }
 }
 
@@ -105,7 +104,7 @@ void MotionPlan::correct(const WorldState& state) {
     last_off = off;
     last_plan_ = plan_;
     pushApart();
-    goApart(off > 0 ? kMostMoved * off : 0);
+    goApart(off > 0 ? kMaxMoved * off : 0);
     for (Row& row : overlaps_) row.least_velocity = 0;
   }
 }
@@ -157,10 +156,11 @@ void MotionPlan::goPart(const Meeting& meeting, double part) {
   if (problem_.groups[a] != problem_.groups[b]) goPart(b, part);
 }
 
-void MotionPlan::limit(double margin) {
+void MotionPlan::limit() {
   for (const std::size_t i : problem_.awake) {
     const double way = plan_.ways[i].norm() + problem_.period_s * plan_.turns[i].norm() * problem_.reachOf(i);
-    if (plan_.parts[i] * way > margin / 2) goPart(i, margin / 2 / way / plan_.parts[i]);
+    const double most = bounds_.ways().bodies[i];
+    if (plan_.parts[i] * way > most) goPart(i, most / way / plan_.parts[i]);
   }
 }
 
@@ -172,7 +172,7 @@ double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting, d
 
 double MotionPlan::depthOf(const PairAtEnd& pair, const Meeting& meeting, double enough) const {
   const double along = -pair.along.gap;
-  if (along <= enough && !isRound(pair.a) && !isRound(pair.b)) return std::max(along, 0.0);
+  if (along <= enough) return std::max(along, 0.0);
   Manifold end;
   const double overlap = findManifold(pair.a, pair.b, 0, end) ? deepestOf(end) : 0;
   return pair.along.hasPassed() || paceOf(problem_, meeting).fast ? std::max(overlap, along) : overlap;
@@ -181,8 +181,8 @@ double MotionPlan::depthOf(const PairAtEnd& pair, const Meeting& meeting, double
 // Farther than it began.
 bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
   const PairAtEnd pair(problem_, state, meeting, plan_);
-  const double left = std::min(kLeft_m, kLeft * (pair.a.shape->thin + pair.b.shape->thin));
-  const double most = std::max(left, deepestOf(meeting.manifold) + kTouching_m);
+  if (problem_.isKeptApart(meeting, pair)) return false;
+  const double most = std::max(leftOf(pair.a, pair.b), deepestOf(meeting.manifold) + kTouching_m);
   return depthOf(pair, meeting, most) > most;
 }
 

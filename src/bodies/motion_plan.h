@@ -3,7 +3,7 @@
 // velocity stays, so that the next step has the impact.
 #pragma once
 
-#include "bodies/joint_rows.h"
+#include "bodies/motion_bounds.h"
 #include "bodies/row_solver.h"
 
 namespace hl {
@@ -11,11 +11,10 @@ namespace hl {
 /// By one thread at a time.
 class MotionPlan {
  public:
-  MotionPlan(const BodyProblem& problem, const JointRows& joints);
+  MotionPlan(const BodyProblem& problem, const JointRows& joints, const MotionBounds& bounds);
 
-  /// From the solved velocities; no body's point goes farther than `margin` / 2 (m). `converged`: of the solver.
-  /// RT-safe.
-  void make(const WorldState& state, double margin, bool converged);
+  /// From the solved velocities; nothing goes farther than the bounds. `converged`: of the solver. RT-safe.
+  void make(const WorldState& state, bool converged);
   const BodyWays& ways() const { return plan_; }
   /// m, of the way that the bodies go.
   Vec3 wayOf(std::size_t body) const { return plan_.parts[body] * plan_.ways[body]; }
@@ -29,7 +28,7 @@ class MotionPlan {
   void goApart(double most);
   void goPart(std::size_t body, double part);
   void goPart(const Meeting& meeting, double part);
-  void limit(double margin);
+  void limit();
   void stopShort(const WorldState& state, bool converged);
   double depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const;
   double depthOf(const PairAtEnd& pair, const Meeting& meeting, double enough) const;
@@ -39,6 +38,7 @@ class MotionPlan {
 
   const BodyProblem& problem_;
   const JointRows& joints_;
+  const MotionBounds& bounds_;
   BodyWays plan_, last_plan_;
   std::vector<double> kept_;  // parts before something was shortened
   std::vector<Node> apart_;   // velocities that only push overlapping bodies apart

@@ -15,7 +15,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostProbes = 20'000;
+constexpr std::size_t kMaxProbes = 20'000;
 constexpr std::size_t kRememberedBytes = std::size_t{64} << 20;  // of meshes
 // Of the sum of all areas: the normals of a closed surface, each as long as its triangle is large, sum up to nothing.
 constexpr double kOpen = 0.05;
@@ -25,7 +25,7 @@ using Places = std::vector<Vec3>;
 // Points of the surface, evenly among its triangles.
 Places probesOf(const PieceMesh& mesh) {
   Places probes;
-  const std::size_t step = 1 + mesh.triangles.size() * 7 / kMostProbes;
+  const std::size_t step = 1 + mesh.triangles.size() * 7 / kMaxProbes;
   for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
     const auto& [a, b, c] = mesh.triangles[i];
     const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];

@@ -5,9 +5,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-#include "bodies/placed_convex.h"
+#include "bodies/cylinder.h"
 
 namespace hl {
 
@@ -18,19 +19,33 @@ struct PairAlong {
   bool hasPassed() const { return middles < 0; }
 };
 
+/// m, along a normal.
+struct Extent {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+};
+
+/// Without the radius by which the shape is grown; a cylinder's is the true one. RT-safe.
+inline Extent extentOf(const PlacedConvex& shape, const Vec3& normal) {
+  if (isRound(shape)) {
+    const CylinderFrame frame = frameOf(shape);
+    const double middle = normal.dot(frame.middle), along = normal.dot(frame.axis);
+    const double half =
+        frame.half_length * std::abs(along) + shape.shape->round_radius * (normal - along * frame.axis).norm();
+    return {middle - half, middle + half};
+  }
+  Extent extent;
+  for (const Vec3& vertex : shape.vertices) {
+    const double height = normal.dot(vertex);
+    extent.low = std::min(extent.low, height);
+    extent.high = std::max(extent.high, height);
+  }
+  return extent;
+}
+
 /// RT-safe.
 inline PairAlong pairAlong(const PlacedConvex& a, const PlacedConvex& b, const Vec3& normal) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  double low_a = kInfinite, high_a = -kInfinite, low_b = kInfinite, high_b = -kInfinite;
-  for (const Vec3& vertex : a.vertices) {
-    low_a = std::min(low_a, normal.dot(vertex));
-    high_a = std::max(high_a, normal.dot(vertex));
-  }
-  for (const Vec3& vertex : b.vertices) {
-    low_b = std::min(low_b, normal.dot(vertex));
-    high_b = std::max(high_b, normal.dot(vertex));
-  }
-  return {low_a - high_b - a.shape->radius - b.shape->radius, (low_a + high_a - low_b - high_b) / 2};
+  const Extent of_a = extentOf(a, normal), of_b = extentOf(b, normal);
+  return {of_a.low - of_b.high - a.shape->radius - b.shape->radius, (of_a.low + of_a.high - of_b.low - of_b.high) / 2};
 }
 
 }  // namespace hl

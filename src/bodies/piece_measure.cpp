@@ -16,17 +16,17 @@ Vec3 acrossOf(const Triangle3& triangle) { return (triangle[1] - triangle[0]).cr
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kRaysInALook = 4;  // to meet a triangle by a ray is so much faster than to find its nearest point
-constexpr std::size_t kMostEnds = 48;    // of lines through a shell
+constexpr std::size_t kMaxEnds = 48;     // of lines through a shell
 
 // Calls visit(point) for points all over a triangle, no farther apart than `apart`, if that is not below an eighth of
 // it; of a small one for its middle.
 template <typename Visit>
 void forEachSample(const Triangle3& triangle, double apart, const Visit& visit) {
-  constexpr int kMostParts = 8;
+  constexpr int kMaxParts = 8;
   const Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
   const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
   if (std::isfinite(apart) && longest <= apart / 2) return visit(Vec3(triangle[0] + (u + v) / 3));
-  const int parts = std::clamp(static_cast<int>(std::ceil(longest / apart)), 2, kMostParts);
+  const int parts = std::clamp(static_cast<int>(std::ceil(longest / apart)), 2, kMaxParts);
   for (int i = 0; i <= parts; ++i) {
     for (int j = 0; j <= parts - i; ++j)
       visit(Vec3(triangle[0] + static_cast<double>(i) / parts * u + static_cast<double>(j) / parts * v));
@@ -159,9 +159,9 @@ HullExcess shellExcess(const Together& pieces, std::size_t most, double enough) 
 
 // The lines of a solid whose middle is not within the whole of it. Until the error is above `enough`.
 HullExcess lineExcess(const Together& pieces, const CutSurface& whole, double allowed_m, double enough) {
-  constexpr std::size_t kMostCorners = 8;
+  constexpr std::size_t kMaxCorners = 8;
   HullExcess excess;
-  for (const Line& line : linesOf(pieces, kMostCorners)) {
+  for (const Line& line : linesOf(pieces, kMaxCorners)) {
     if (excess.error_m > enough) break;
     const double known = std::max(excess.error_m, allowed_m);
     const double air = pieces.distanceTo(line.middle, line.half_m, known, excess.looks);
@@ -173,8 +173,8 @@ HullExcess lineExcess(const Together& pieces, const CutSurface& whole, double al
 }
 
 void followWays(const CutPiece& piece, const std::vector<HalfSpace>& hull, double allowed_m, HullExcess& excess) {
-  constexpr double kApart = 4;           // of what is allowed
-  constexpr std::size_t kMostWays = 96;  // that are followed
+  constexpr double kApart = 4;          // of what is allowed
+  constexpr std::size_t kMaxWays = 96;  // that are followed
   std::vector<AirWay> ways = airWays(piece.surface(), hull, kApart * allowed_m, 1);
   excess.looks += (ways.size() + piece.corners().size()) * hull.size();
   takeLongest(ways, excess);
@@ -183,7 +183,7 @@ void followWays(const CutPiece& piece, const std::vector<HalfSpace>& hull, doubl
     return;
   }
   std::erase_if(ways, [&](const AirWay& way) { return way.length_m <= allowed_m; });
-  const std::size_t step = 1 + ways.size() / kMostWays;
+  const std::size_t step = 1 + ways.size() / kMaxWays;
   for (std::size_t i = 0; i < ways.size(); i += step) {
     const double length = lengthInAir(piece.surface(), ways[i]);
     excess.looks += piece.surface().size();
@@ -199,23 +199,23 @@ void followWays(const CutPiece& piece, const std::vector<HalfSpace>& hull, doubl
 }  // namespace
 
 HullExcess PieceMeasure::exactly(const CutPiece& piece) const {
-  HullExcess excess = isShell(piece) ? shellExcess(Together(piece), kMostEnds, kNever)
+  HullExcess excess = isShell(piece) ? shellExcess(Together(piece), kMaxEnds, kNever)
                                      : lineExcess(Together(piece), whole_, allowed_m_, kNever);
   if (!isShell(piece)) followWays(piece, hullPlanes(piece.corners()), allowed_m_, excess);
   return excess;
 }
 
 HullExcess PieceMeasure::atLeast(const CutPiece& a, const CutPiece& b, double enough_m) const {
-  if (is_shell_) return shellExcess(Together(a, b), kMostEnds, enough_m);
+  if (is_shell_) return shellExcess(Together(a, b), kMaxEnds, enough_m);
   return isShell(a) && isShell(b) ? HullExcess{} : lineExcess(Together(a, b), whole_, allowed_m_, enough_m);
 }
 
 HullExcess PieceMeasure::roughly(const CutPiece& piece) const {
-  constexpr std::size_t kMostTriangles = 128, kFewEnds = 16;
+  constexpr std::size_t kMaxTriangles = 128, kFewEnds = 16;
   if (isShell(piece)) return shellExcess(Together(piece), kFewEnds, kNever);
   HullExcess excess = lineExcess(Together(piece), whole_, allowed_m_, kNever);
   const std::vector<HalfSpace> hull = hullPlanes(distinct(piece.extremes()));
-  const auto ways = airWays(piece.surface(), hull, kNever, 1 + piece.surface().size() / kMostTriangles);
+  const auto ways = airWays(piece.surface(), hull, kNever, 1 + piece.surface().size() / kMaxTriangles);
   excess.looks += ways.size() * hull.size();
   takeLongest(ways, excess);
   return excess;

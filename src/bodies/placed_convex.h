@@ -13,6 +13,7 @@ struct PlacedConvex {
   std::span<const Vec3> vertices{};  ///< m, world
   std::span<const Vec3> normals{};   ///< of the faces, world
   Vec3 centre = Vec3::Zero();        ///< m, world: inside the shape
+  bool turned_edge = false;          ///< a cylinder whose edge of vertices 0 and 1 is turned toward the other shape
 };
 
 /// A cylinder: its vertices are those of a prism, whose sides lie inside it.
@@ -20,8 +21,8 @@ inline bool isRound(const PlacedConvex& of) { return of.shape->round_radius > 0;
 
 /// Room for one placed shape on the stack.
 struct PlacedRoom {
-  std::array<Vec3, kMostVertices> vertices;
-  std::array<Vec3, kMostFaces> normals;
+  std::array<Vec3, kMaxVertices> vertices;
+  std::array<Vec3, kMaxFaces> normals;
 };
 
 }  // namespace hl

@@ -38,8 +38,8 @@ struct alignas(64) Row {
   static constexpr int kFixed = -1;
   static constexpr double kNone = -1e300;
   int a = 0, b = kFixed;  ///< numbers of nodes; the normal points from b to a
-  /// Of the solver: what changed since its last solve is solved anew.
-  enum class Solved : std::uint8_t { kNo, kInPart, kWhole } solved = Solved::kNo;
+  /// Of the solver: what changed since its last solve is solved anew. In part: as far as its work allowed.
+  enum class Solved : std::uint8_t { kNo, kRoughly, kInPart, kWhole } solved = Solved::kNo;
   bool slipping = false;
   Vec3 normal = Vec3::UnitZ();
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< m, world, from the centres
@@ -61,6 +61,9 @@ struct alignas(64) Row {
   double least_velocity = kNone;  ///< m/s along the normal, that the row demands besides; kNone: nothing
   double approach = 0;            ///< m/s along the normal before the step
 };
+
+/// Of the impulses of a step: a few sweeps, or a solution.
+enum class Accuracy : std::uint8_t { kRough, kExact };
 
 /// N s, on a.
 inline Vec3 impulseOf(const Row& row) { return row.pressed * row.normal + row.dragged; }

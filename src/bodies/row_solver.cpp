@@ -82,10 +82,10 @@ inline void solveRow(Row& row, std::span<Node> nodes) {
 }  // namespace
 
 RowSolverLimits limitsFor(std::size_t rows) {
-  constexpr int kMostUpdates = 20'000;  // of single rows, some 2 ms
-  constexpr int kMostSweeps = 1000, kLeastSweeps = 20;
+  constexpr int kMaxUpdates = 20'000;  // of single rows, some 0.8 ms
+  constexpr int kMaxSweeps = 1000, kMinSweeps = 20;
   RowSolverLimits limits;
-  limits.sweeps = std::clamp(kMostUpdates / static_cast<int>(rows + 1), kLeastSweeps, kMostSweeps);
+  limits.sweeps = std::clamp(kMaxUpdates / static_cast<int>(rows + 1), kMinSweeps, kMaxSweeps);
   return limits;
 }
 

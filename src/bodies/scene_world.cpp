@@ -133,8 +133,8 @@ std::shared_ptr<const World> worldOf(const Snapshot& snapshot) {
     parts += world->bodies.back().shape.parts.size();
   }
   if (world->bodies.empty()) return nullptr;
-  if (parts > kMostBodies)
-    throw Error("its bodies have " + std::to_string(parts) + " parts, and at most " + std::to_string(kMostBodies) +
+  if (parts > kMaxBodies)
+    throw Error("its bodies have " + std::to_string(parts) + " parts, and at most " + std::to_string(kMaxBodies) +
                 " can move");
   if (!fixed.empty()) world->fixed = makeSnapshot(std::move(fixed));
   world->gravity_m_s2 = snapshot.mechanics.gravity_m_s2;

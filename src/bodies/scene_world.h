@@ -10,7 +10,7 @@
 namespace hl {
 
 /// Null: none of its instances moves as a body. Throws hl::Error, with the name of the body, where a shape or a mass
-/// cannot be made, and where all bodies have more than kMostBodies parts. Allocates.
+/// cannot be made, and where all bodies have more than kMaxBodies parts. Allocates.
 std::shared_ptr<const World> worldOf(const Snapshot& snapshot);
 
 /// The number of parts of all bodies that move. Throws Error, with the name of the body.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/clock.h"
+
 namespace hl {
 
 namespace {
@@ -16,7 +18,7 @@ double fastestOf_m_s(const Screw& screw, const Box& object) {
                  (corner & 4) != 0 ? object.max.z() : object.min.z());
     farthest = std::max(farthest, (screw.to().toWorld(p) - screw.from().toWorld(p)).norm());
   }
-  return kArcOverChord * farthest / (1e-9 * static_cast<double>(screw.end_ns() - screw.begin_ns()));
+  return kArcOverChord * farthest / seconds(screw.end_ns() - screw.begin_ns());
 }
 
 }  // namespace

@@ -8,6 +8,8 @@ namespace {
 
 // Rounding of the sum of many periods.
 constexpr double kPeriods_s = 1e-9;
+// What overlaps is pushed apart before it sleeps. If it cannot come free it sleeps later, by this part of the time.
+constexpr double kOverlapping = 0.1;
 // What scenery may touch in a step, beyond where it goes.
 constexpr double kNear_m = 1e-3;
 
@@ -38,11 +40,21 @@ void stop(const Body& body, BodyState& state, EnergyBook& energy) {
   state.stopped_short = 0;
 }
 
+bool overlaps(const Row& row) { return row.gap < -kLeft_m; }
+
+bool overlaps(const BodyProblem& problem, std::size_t body) {
+  const auto number = static_cast<int>(body);
+  return std::any_of(problem.rows.begin(), problem.rows.end(),
+                     [&](const Row& row) { return overlaps(row) && (row.a == number || row.b == number); });
+}
+
 // True: some island may fall asleep.
 bool countStill(const BodyProblem& problem, WorldState& state) {
+  const bool any = std::any_of(problem.rows.begin(), problem.rows.end(), [](const Row& row) { return overlaps(row); });
   for (const std::size_t i : problem.awake) {
     BodyState& body = state.bodies[i];
-    body.still_s = speedOf(body, problem.reachOf(i)) < kStill_m_s ? body.still_s + problem.period_s : 0;
+    const double counted_s = (any && overlaps(problem, i) ? kOverlapping : 1) * problem.period_s;
+    body.still_s = speedOf(body, problem.reachOf(i)) < kStill_m_s ? body.still_s + counted_s : 0;
   }
   for (const Row& row : problem.rows) {
     const bool of_hand = static_cast<std::size_t>(row.a) >= problem.bodies();

@@ -56,8 +56,8 @@ struct World {
 };
 
 /// A step has no more contacts, 64 for each of the bodies, whatever its parts; the rest is dropped, and counted.
-inline constexpr std::size_t kMostHands = 8, kContactsOfHand = 8, kContactsPerBody = 64;
-inline std::size_t mostRows(std::size_t bodies) { return kMostHands * kContactsOfHand + kContactsPerBody * bodies; }
+inline constexpr std::size_t kMaxHands = 8, kContactsOfHand = 8, kContactsPerBody = 64;
+inline std::size_t mostRows(std::size_t bodies) { return kMaxHands * kContactsOfHand + kContactsPerBody * bodies; }
 inline std::size_t mostRows(const World& world) { return mostRows(world.bodies.size()); }
 
 /// No body is faster at the begin of a step: what is in its way would not be met any more.

@@ -29,7 +29,7 @@ constexpr double kEstimatePart = 0.1, kMeshPart = 0.9;  // of the whole, at thei
 
 // Of a first, coarse mesh: a chord of it is this many times as far from its curve. The angle goes with the root of it.
 constexpr double kCoarse = 64;
-constexpr double kMost_s = 90;  // of the processor, for a mesh: the reading process has 120
+constexpr double kMax_s = 90;  // of the processor, for a mesh: the reading process has 120
 
 void makeMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, const Message_ProgressRange& progress) {
   IMeshTools_Parameters parameters;
@@ -64,7 +64,7 @@ struct MeshEstimate {
   }
   double time_s(double ratio) const { return coarse_s * triangles(ratio) / std::max(1.0, triangles(1)); }
   bool fits(double ratio, std::size_t most_triangles) const {
-    return triangles(ratio) <= static_cast<double>(most_triangles) && time_s(ratio) <= kMost_s;
+    return triangles(ratio) <= static_cast<double>(most_triangles) && time_s(ratio) <= kMax_s;
   }
 };
 
@@ -91,14 +91,14 @@ MeshEstimate estimateMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, 
 void requireFits(const MeshEstimate& estimate, const CadMeshing& meshing, std::size_t most) {
   if (estimate.fits(kCoarse, most)) return;
   double deflection_m = meshing.deflection_m;
-  while (!estimate.fits(kCoarse * meshing.deflection_m / deflection_m, most) && deflection_m < kMostDeflection_m)
+  while (!estimate.fits(kCoarse * meshing.deflection_m / deflection_m, most) && deflection_m < kMaxDeflection_m)
     deflection_m *= 2;
   throw Error(
       fmt::format("makes about {:.2g} million triangles at a deflection of {:.2g} m, in {:.0f} s; at most {:.2g} "
                   "million in {:.0f} s "
                   "can be: --deflection {:.2g} fits",
                   1e-6 * estimate.triangles(kCoarse), meshing.deflection_m, estimate.time_s(kCoarse),
-                  1e-6 * static_cast<double>(most), kMost_s, deflection_m));
+                  1e-6 * static_cast<double>(most), kMax_s, deflection_m));
 }
 
 std::size_t countOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
@@ -161,7 +161,7 @@ class MeshCollection {
 
 Model collectMesh(const CadShape& cad, const CadMeshing& meshing, const std::function<void(double)>& report) {
   MeshCollection mesh(cad.shape, meshing, report);
-  const bool apart = !cad.solids.empty() && cad.solids.size() < kMostModelParts;
+  const bool apart = !cad.solids.empty() && cad.solids.size() < kMaxModelParts;
   if (!apart) {
     mesh.add(cad.shape);
     return mesh.take();

@@ -17,6 +17,6 @@ namespace hl {
 /// Throws hl::Error if there were more than `most_triangles`, with a deflection that gives fewer. `report` is told how
 /// far it is, 0..1.
 Model meshCad(const CadShape& cad, const CadMeshing& meshing, const std::function<void(double)>& report,
-              std::size_t most_triangles = kMostCadTriangles);
+              std::size_t most_triangles = kMaxCadTriangles);
 
 }  // namespace hl

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "client/vec_messages.h"
+
 namespace hl::client {
 
 namespace {
@@ -12,11 +14,7 @@ namespace {
 constexpr std::size_t kMaxPoints = 1024;
 
 std::array<double, 3> vectorOf(const proto::Vec3& v) { return {v.x(), v.y(), v.z()}; }
-void set(proto::Vec3& out, const std::array<double, 3>& v) {
-  out.set_x(v[0]);
-  out.set_y(v[1]);
-  out.set_z(v[2]);
-}
+void set(proto::Vec3& out, const std::array<double, 3>& v) { setVec(out, v[0], v[1], v[2]); }
 double lengthOf(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
 std::array<double, 3> sumOf(const std::array<double, 3>& a, const std::array<double, 3>& b, double factor = 1) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};

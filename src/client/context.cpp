@@ -32,7 +32,22 @@ Draft HLcontext::closeFrame() {
   auto changes = textures.takeChanges(textures.hasRemoved() ? usedTextures() : std::set<HLuint>{});
   closed.textures = std::move(changes.images);
   closed.deleted_textures = std::move(changes.removed);
+  objects.keepChanges();
   return closed;
+}
+
+void HLcontext::unbindMissing() {
+  for (hl::client::TextureUse& use : draw.attributes.now.textures.uses)
+    if (!textures.contains(use.texture)) use.texture = 0;
+}
+
+void HLcontext::cancelFrame() {
+  if (definition) draw = std::move(definition->outside);
+  definition.reset();
+  frame = {};
+  objects.undoChanges();
+  textures.undoChanges();
+  unbindMissing();
 }
 
 std::set<HLuint> HLcontext::usedTextures() const {

@@ -69,6 +69,10 @@ struct HLcontext {
   hl::client::ItemList& target();
   /// What has been recorded since the last flush, complete; a new frame begins.
   hl::client::Draft closeFrame();
+  /// Textures that are no more are bound no more.
+  void unbindMissing();
+  /// Nothing of it has been; an open definition ends.
+  void cancelFrame();
 
  private:
   std::set<HLuint> usedTextures() const;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "client/fault.h"
+#include "client/vec_messages.h"
 
 namespace hl::client {
 
@@ -78,10 +79,8 @@ void fillCompliance(HLuint object, const ObjectCompliance& compliance, proto::Co
   out.set_object(object);
   out.set_normal_m_n(compliance.normal_m_N);
   out.set_tangential_m_n(compliance.tangential_m_N);
-  proto::Vec3& force_N = *out.mutable_computed_for_n();
-  force_N.set_x(compliance.computed_for_N[0]);
-  force_N.set_y(compliance.computed_for_N[1]);
-  force_N.set_z(compliance.computed_for_N[2]);
+  const auto& [x, y, z] = compliance.computed_for_N;
+  setVec(*out.mutable_computed_for_n(), x, y, z);
 }
 
 // Turns one draft into messages, counting what goes into the frame itself and what goes ahead.
@@ -98,9 +97,7 @@ class Builder {
     frame.set_number(terms_.number);
     if (draft.gravity_m_s2) {
       const auto& [x, y, z] = *draft.gravity_m_s2;
-      frame.mutable_gravity_m_s2()->set_x(x);
-      frame.mutable_gravity_m_s2()->set_y(y);
-      frame.mutable_gravity_m_s2()->set_z(z);
+      setVec(*frame.mutable_gravity_m_s2(), x, y, z);
     }
     if (terms_.interval_s) frame.set_interval_s(*terms_.interval_s);
     for (auto& [number, texture] : draft.textures) fillTexture(number, std::move(texture), *frame.add_textures());

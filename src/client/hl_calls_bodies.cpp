@@ -9,6 +9,7 @@
 
 #include "client/call.h"
 #include "client/queries.h"
+#include "client/vec_messages.h"
 
 using hl::client::call;
 using hl::client::callOr;
@@ -21,14 +22,12 @@ using hl::client::When;
 namespace {
 
 // As servers take them.
-constexpr double kMostSpeed_m_s = 100, kMostSpin_rad_s = 1000, kMostGravity_m_s2 = 1000, kMostImpulse_N_s = 1e6,
+constexpr double kMaxSpeed_m_s = 100, kMaxSpin_rad_s = 1000, kMaxGravity_m_s2 = 1000, kMaxImpulse_N_s = 1e6,
                  kFarthest_m = 1e9, kLongest_s = 10;
 
 void setWithin(hl::proto::Vec3& out, double x, double y, double z, double most) {
   for (const double value : {x, y, z}) requireWithin(value, -most, most);
-  out.set_x(x);
-  out.set_y(y);
-  out.set_z(z);
+  hl::client::setVec(out, x, y, z);
 }
 
 // Lets `fill` set the body of the open definition.
@@ -136,15 +135,15 @@ void hlBodyi(HLenum parameter, HLint value) {
 
 void hlBody3d(HLenum parameter, HLdouble x, HLdouble y, HLdouble z) {
   setBody(__func__, [&](hl::proto::Body& body) {
-    if (parameter == HL_BODY_VELOCITY) return setWithin(*body.mutable_velocity_m_s(), x, y, z, kMostSpeed_m_s);
-    if (parameter == HL_BODY_SPIN) return setWithin(*body.mutable_spin_rad_s(), x, y, z, kMostSpin_rad_s);
+    if (parameter == HL_BODY_VELOCITY) return setWithin(*body.mutable_velocity_m_s(), x, y, z, kMaxSpeed_m_s);
+    if (parameter == HL_BODY_SPIN) return setWithin(*body.mutable_spin_rad_s(), x, y, z, kMaxSpin_rad_s);
     throw Fault(HL_INVALID_ENUM, "the parameter must be HL_BODY_VELOCITY or HL_BODY_SPIN");
   });
 }
 
 void hlGravity3d(HLdouble x, HLdouble y, HLdouble z) {
   call(__func__, When::kNotInDefinition, [&](HLcontext& context) {
-    for (const double value : {x, y, z}) requireWithin(value, -kMostGravity_m_s2, kMostGravity_m_s2);
+    for (const double value : {x, y, z}) requireWithin(value, -kMaxGravity_m_s2, kMaxGravity_m_s2);
     context.frame.gravity_m_s2 = {x, y, z};
   });
 }
@@ -153,7 +152,7 @@ void hlBodyImpulsed(HLuint object, HLdouble ix, HLdouble iy, HLdouble iz, HLdoub
                     HLdouble seconds) {
   act(__func__, object, [&](hl::proto::BodyCommand& command) {
     hl::proto::BodyPush& push = *command.mutable_push();
-    setWithin(*push.mutable_impulse_n_s(), ix, iy, iz, kMostImpulse_N_s);
+    setWithin(*push.mutable_impulse_n_s(), ix, iy, iz, kMaxImpulse_N_s);
     setWithin(*push.mutable_point(), px, py, pz, kFarthest_m);
     requireWithin(seconds, 0, kLongest_s);
     push.set_duration_s(seconds);
@@ -162,8 +161,8 @@ void hlBodyImpulsed(HLuint object, HLdouble ix, HLdouble iy, HLdouble iz, HLdoub
 
 void hlBodyVelocityd(HLuint object, HLdouble vx, HLdouble vy, HLdouble vz, HLdouble wx, HLdouble wy, HLdouble wz) {
   act(__func__, object, [&](hl::proto::BodyCommand& command) {
-    setWithin(*command.mutable_velocity()->mutable_velocity_m_s(), vx, vy, vz, kMostSpeed_m_s);
-    setWithin(*command.mutable_velocity()->mutable_spin_rad_s(), wx, wy, wz, kMostSpin_rad_s);
+    setWithin(*command.mutable_velocity()->mutable_velocity_m_s(), vx, vy, vz, kMaxSpeed_m_s);
+    setWithin(*command.mutable_velocity()->mutable_spin_rad_s(), wx, wy, wz, kMaxSpin_rad_s);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "client/call.h"
+#include "client/vec_messages.h"
 
 using hl::client::call;
 using hl::client::callOr;
@@ -20,11 +21,9 @@ void requirePositive(double value) {
   if (value <= 0) throw Fault(HL_INVALID_VALUE, "the value must be above 0");
 }
 
-void setVec(hl::proto::Vec3& out, double x, double y, double z) {
+void setFinite(hl::proto::Vec3& out, double x, double y, double z) {
   requireFinite(x, y, z);
-  out.set_x(x);
-  out.set_y(y);
-  out.set_z(z);
+  hl::client::setVec(out, x, y, z);
 }
 
 // Lets `fill` write the settings, and sends them. After the end of the conversation nothing is known of the master.
@@ -83,7 +82,7 @@ void hlProxyd(HLenum parameter, HLdouble value) { setProxy(__func__, parameter, 
 void hlWorkspaced(HLdouble x, HLdouble y, HLdouble z, HLdouble world_per_device) {
   setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
     requirePositive(world_per_device);
-    setVec(*settings.mutable_workspace()->mutable_origin(), x, y, z);
+    setFinite(*settings.mutable_workspace()->mutable_origin(), x, y, z);
     settings.mutable_workspace()->set_world_per_device(world_per_device);
   });
 }
@@ -109,7 +108,7 @@ void hlRearm(void) {
 
 void hlHandGoal3d(HLdouble x, HLdouble y, HLdouble z) {
   setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
-    setVec(*settings.mutable_hand_goal()->mutable_position(), x, y, z);
+    setFinite(*settings.mutable_hand_goal()->mutable_position(), x, y, z);
   });
 }
 

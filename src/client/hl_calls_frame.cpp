@@ -39,6 +39,10 @@ void hlClear(void) {
   call(__func__, When::kNotInDefinition, [](HLcontext& context) { context.frame.world.emplace(); });
 }
 
+void hlCancelFrame(void) {
+  call(__func__, [](HLcontext& context) { context.cancelFrame(); });
+}
+
 void hlFlush(void) {
   call(__func__, When::kNotInDefinition, [](HLcontext& context) {
     context.conversation.takeReplies(context.errors, context.events);

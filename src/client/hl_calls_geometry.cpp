@@ -137,9 +137,9 @@ void setSamples(Grid& grid, std::initializer_list<HLsizei> sides, HLenum type, c
   }
   requirePointer(samples);
   if (missing != nullptr) requireFinite(*missing);
-  constexpr std::size_t kMost = std::size_t{1} << 30;  // a message has less than 2 GiB
+  constexpr std::size_t kMax = std::size_t{1} << 30;  // a message has less than 2 GiB
   for (const HLsizei side : sides) {
-    if (static_cast<std::size_t>(side) >= kMost / bytes)
+    if (static_cast<std::size_t>(side) >= kMax / bytes)
       throw Fault(HL_OUT_OF_MEMORY, "the samples must be less than 1 GiB");
     bytes *= static_cast<std::size_t>(side);
   }
@@ -224,11 +224,11 @@ void hlHeightField(HLsizei columns, HLsizei rows, HLenum type, const void* sampl
 
 void hlDepthFrame(HLsizei width, HLsizei height, const HLushort* depths, const HLdouble* camera, HLdouble scale,
                   HLdouble join, HLdouble smoothing) {
-  constexpr double kLeast = 1e-12, kMost = 1e9;
+  constexpr double kMin = 1e-12, kMax = 1e9;
   call(__func__, [&](HLcontext& context) {
     if (camera == nullptr) throw Fault(HL_INVALID_VALUE, "there is no camera");
     if (!(camera[0] > 0 && camera[1] > 0)) throw Fault(HL_INVALID_VALUE, "the focal lengths must be above 0");
-    if (!(scale >= kLeast && scale <= kMost)) throw Fault(HL_INVALID_VALUE, "the scale must be from 1e-12 to 1e9 m");
+    if (!(scale >= kMin && scale <= kMax)) throw Fault(HL_INVALID_VALUE, "the scale must be from 1e-12 to 1e9 m");
     if (!(join >= 0 && join <= 1)) throw Fault(HL_INVALID_VALUE, "join must be from 0 to 1");
     if (!(smoothing >= 0 && smoothing < 1)) throw Fault(HL_INVALID_VALUE, "smoothing must be from 0 to less than 1");
     hl::proto::Heights heights;
@@ -260,16 +260,16 @@ void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, const v
 }
 
 void hlVolumeMatter(HLsizei rows, const HLdouble* numbers) {
-  constexpr HLsizei kMostRows = 256;
-  constexpr double kMost = 1e9;
+  constexpr HLsizei kMaxRows = 256;
+  constexpr double kMax = 1e9;
   call(__func__, [&](HLcontext& context) {
-    if (rows < 0 || rows > kMostRows) throw Fault(HL_INVALID_VALUE, "matter has 0 to 256 rows");
+    if (rows < 0 || rows > kMaxRows) throw Fault(HL_INVALID_VALUE, "matter has 0 to 256 rows");
     if (rows > 0 && numbers == nullptr) throw Fault(HL_INVALID_VALUE, "there are no numbers");
     hl::proto::Volume made;
     for (HLsizei i = 0; i < rows; ++i) {
       const HLdouble* const row = numbers + std::ptrdiff_t{3} * i;
       const bool rises = i == 0 || row[0] > row[-3];
-      const auto fits = [](double number) { return number >= 0 && number <= kMost; };
+      const auto fits = [](double number) { return number >= 0 && number <= kMax; };
       if (!std::isfinite(row[0]) || !rises || !fits(row[1]) || !fits(row[2]))
         throw Fault(HL_INVALID_VALUE, "the values must rise, and the resistances and drags be from 0 to 1e9");
       hl::proto::Matter& out = *made.add_matter();
@@ -314,14 +314,14 @@ void hlNurbsSurface(HLsizei u_knot_count, const HLdouble* u_knots, HLsizei v_kno
 
 void hlPointCloud(HLsizei count, const HLdouble* points, const HLdouble* normals, HLdouble reach) {
   call(__func__, [&](HLcontext& context) {
-    constexpr std::size_t kMostPoints = (std::size_t{1} << 30) / 36;  // 1 GiB of positions and normals
-    constexpr double kLeastReach = 0.01, kMostReach = 10;
+    constexpr std::size_t kMaxPoints = (std::size_t{1} << 30) / 36;  // 1 GiB of positions and normals
+    constexpr double kMinReach = 0.01, kMaxReach = 10;
     if (count < 1) throw Fault(HL_INVALID_VALUE, "a cloud needs a point or more");
     requirePointer(points);
-    if (reach != 0 && !(reach >= kLeastReach && reach <= kMostReach))
+    if (reach != 0 && !(reach >= kMinReach && reach <= kMaxReach))
       throw Fault(HL_INVALID_VALUE, "the reach of surfels is 0.01 to 10 times the spacing of the points, or 0: points");
     const std::size_t numbers = 3 * static_cast<std::size_t>(count);
-    if (numbers >= 3 * kMostPoints) throw Fault(HL_OUT_OF_MEMORY, "the points must be less than 1 GiB");
+    if (numbers >= 3 * kMaxPoints) throw Fault(HL_OUT_OF_MEMORY, "the points must be less than 1 GiB");
     for (std::size_t i = 0; i < numbers; ++i) requireFinite(points[i], normals != nullptr ? normals[i] : 0);
     const auto cloud = std::make_shared<hl::proto::Cloud>();
     cloud->mutable_positions()->Add(points, points + numbers);

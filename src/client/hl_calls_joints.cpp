@@ -7,6 +7,7 @@
 
 #include "client/call.h"
 #include "client/queries.h"
+#include "client/vec_messages.h"
 
 using hl::client::call;
 using hl::client::callOr;
@@ -19,8 +20,8 @@ using hl::client::When;
 namespace {
 
 // As servers take them: along the coordinate m, rad, N, N m and what is made of them.
-constexpr double kMostAlong = 1e9, kFarthestAnchor_m = 1e6;
-constexpr HLsizei kMostRows = 256;
+constexpr double kMaxAlong = 1e9, kFarthestAnchor_m = 1e6;
+constexpr HLsizei kMaxRows = 256;
 
 // Lets `fill` set the joint that is made next.
 template <typename Fill>
@@ -32,7 +33,7 @@ void setAlong(hl::proto::Joint& joint, HLenum parameter, double value) {
   const bool signed_value = parameter >= HL_JOINT_LOW && parameter <= HL_JOINT_REST;
   if (parameter < HL_JOINT_LOW || parameter > HL_JOINT_FRICTION)
     throw Fault(HL_INVALID_ENUM, "the parameter must be HL_JOINT_LOW .. HL_JOINT_FRICTION");
-  requireWithin(value, signed_value ? -kMostAlong : 0, kMostAlong);
+  requireWithin(value, signed_value ? -kMaxAlong : 0, kMaxAlong);
   switch (parameter) {
     case HL_JOINT_LOW:
       return joint.set_low(value);
@@ -63,9 +64,7 @@ void setKind(hl::proto::Joint& joint, HLenum parameter, HLint value) {
 hl::proto::Vec3 placeOf(const hl::Vec3& v) {
   for (const double value : v) requireWithin(value, -kFarthestAnchor_m, kFarthestAnchor_m);
   hl::proto::Vec3 place;
-  place.set_x(v.x());
-  place.set_y(v.y());
-  place.set_z(v.z());
+  hl::client::setVec(place, v.x(), v.y(), v.z());
   return place;
 }
 
@@ -91,11 +90,11 @@ void setVector(HLcontext& context, HLenum parameter, const hl::Vec3& given) {
 }
 
 hl::proto::ForceTable tableOf(HLsizei rows, const HLdouble* positions, const HLdouble* forces) {
-  if (rows > kMostRows) throw Fault(HL_INVALID_VALUE, "a table has at most 256 rows");
+  if (rows > kMaxRows) throw Fault(HL_INVALID_VALUE, "a table has at most 256 rows");
   hl::proto::ForceTable table;
   for (HLsizei i = 0; i < rows; ++i) {
-    requireWithin(positions[i], -kMostAlong, kMostAlong);
-    requireWithin(forces[i], -kMostAlong, kMostAlong);
+    requireWithin(positions[i], -kMaxAlong, kMaxAlong);
+    requireWithin(forces[i], -kMaxAlong, kMaxAlong);
     if (i > 0 && !(positions[i] > positions[i - 1])) throw Fault(HL_INVALID_VALUE, "the positions must increase");
     table.add_position(positions[i]);
     table.add_force(forces[i]);

@@ -104,6 +104,14 @@ void hlEndObject(void) {
   });
 }
 
+void hlCancelObject(void) {
+  call(__func__, [](HLcontext& context) {
+    if (!context.definition) throw Fault(HL_INVALID_OPERATION, "only after hlNewObject");
+    context.draw = std::move(context.definition->outside);
+    context.definition.reset();
+  });
+}
+
 void hlCallObject(HLuint object) {
   call(__func__, [&](HLcontext& context) {
     requireCallable(context, object);

@@ -60,5 +60,8 @@ void hlPushAttrib(HLbitfield mask) {
 }
 
 void hlPopAttrib(void) {
-  call(__func__, [](HLcontext& context) { context.draw.attributes.pop(); });
+  call(__func__, [](HLcontext& context) {
+    context.draw.attributes.pop();
+    context.unbindMissing();
+  });
 }

@@ -99,11 +99,8 @@ void hlGenTextures(HLsizei n, HLuint* textures) {
 void hlDeleteTextures(HLsizei n, const HLuint* textures) {
   call(__func__, When::kNotInDefinition, [&](HLcontext& context) {
     requireList(n, textures);
-    for (HLsizei i = 0; i < n; ++i) {
-      context.textures.remove(textures[i]);
-      for (TextureUse& use : context.draw.attributes.now.textures.uses)
-        if (use.texture == textures[i]) use.texture = 0;
-    }
+    for (HLsizei i = 0; i < n; ++i) context.textures.remove(textures[i]);
+    context.unbindMissing();
   });
 }
 

@@ -14,7 +14,14 @@ HLuint ObjectTable::generate() {
   return ++highest_;
 }
 
+bool ObjectTable::remove(HLuint object) {
+  if (!isDefined(object)) return false;
+  changes_.remember(objects_, object);
+  return objects_.erase(object) != 0;
+}
+
 void ObjectTable::define(HLuint object, const ItemList& items) {
+  changes_.remember(objects_, object);
   objects_[object] = {items.uses(), items.vertices(), items.volumes()};
   highest_ = std::max(highest_, object);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "client/item_list.h"
+#include "client/table_changes.h"
 
 namespace hl::client {
 
@@ -26,7 +27,10 @@ class ObjectTable {
   /// Numbers of its items that are surfaces of volumes, in order.
   const std::vector<std::uint32_t>& volumes(HLuint object) const { return objects_.at(object).volumes; }
   /// Returns whether it was defined.
-  bool remove(HLuint object) { return objects_.erase(object) != 0; }
+  bool remove(HLuint object);
+  /// What was defined and removed since the last call of either: stays so, or is undone.
+  void keepChanges() { changes_.forget(); }
+  void undoChanges() { changes_.undo(objects_); }
   /// Whether `from` is `to` or calls it, directly or not.
   bool reaches(HLuint from, HLuint to) const;
   /// Those of all objects.
@@ -39,6 +43,7 @@ class ObjectTable {
     std::vector<std::uint32_t> volumes;
   };
   std::map<HLuint, Known> objects_;
+  TableChanges<Known> changes_;
   HLuint highest_ = 0;
 };
 

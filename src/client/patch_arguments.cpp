@@ -12,11 +12,11 @@ namespace {
 
 // Throws unless that many control points can be read.
 std::size_t controlPoints(const SurfaceSide& side, HLint least_stride) {
-  if (side.order < 2 || side.order > static_cast<HLint>(kMostPatchOrder))
+  if (side.order < 2 || side.order > static_cast<HLint>(kMaxPatchOrder))
     throw Fault(HL_INVALID_VALUE, "orders must be 2 to 8: degree + 1");
   if (side.stride < least_stride) throw Fault(HL_INVALID_VALUE, "a stride is shorter than a control point");
   if (side.knot_count == 0) return static_cast<std::size_t>(side.order);
-  if (side.knot_count < 2 * side.order || side.knot_count - side.order > static_cast<HLsizei>(kMostControlPoints))
+  if (side.knot_count < 2 * side.order || side.knot_count - side.order > static_cast<HLsizei>(kMaxControlPoints))
     throw Fault(HL_INVALID_VALUE, "knots must be at least twice the order, and at most 4096 + order, in number");
   if (side.knots == nullptr) throw Fault(HL_INVALID_VALUE, "the knots are NULL");
   return static_cast<std::size_t>(side.knot_count - side.order);

@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "client/call.h"
+#include "client/vec_messages.h"
 
 namespace hl::client {
 
 // As servers take them.
-inline constexpr double kLeastOfPlace = 1e-9, kMostOfPlace = 1e9, kFarthestPlace_m = 1e6;
-inline constexpr std::size_t kMostOfObject = 64;
-inline constexpr int kMostCornersOfPlace = 256;
+inline constexpr double kMinOfPlace = 1e-9, kMaxOfPlace = 1e9, kFarthestPlace_m = 1e6;
+inline constexpr std::size_t kMaxOfObject = 64;
+inline constexpr int kMaxCornersOfPlace = 256;
 
 /// The items of the open definition. Throws Fault, as all below.
 inline ItemList& openDefinition(HLcontext& context) {
@@ -37,14 +38,14 @@ template <typename Message>
 void leadOn(const HLcontext& context, const Eigen::Vector3d& point, std::vector<Message>& list) {
   if (list.empty() || list.back().has_normal())
     throw Fault(HL_INVALID_OPERATION, "the last one of the definition must be of a point or line");
-  if (list.back().points_size() >= 3 * kMostCornersOfPlace)
+  if (list.back().points_size() >= 3 * kMaxCornersOfPlace)
     throw Fault(HL_INVALID_VALUE, "it has 256 points, and no more can be");
   addPoint(context, point, list.back());
 }
 
 template <typename Message>
 void append(Message message, std::vector<Message>& list) {
-  if (list.size() == kMostOfObject) throw Fault(HL_INVALID_VALUE, "an object has at most 64 of them");
+  if (list.size() == kMaxOfObject) throw Fault(HL_INVALID_VALUE, "an object has at most 64 of them");
   list.push_back(std::move(message));
 }
 
@@ -53,9 +54,7 @@ inline void setUnit(const Eigen::Matrix3d& linear, const Eigen::Vector3d& v, pro
   const Eigen::Vector3d placed = (linear * v.stableNormalized()).stableNormalized();
   if (!v.allFinite() || !placed.allFinite() || !(placed.norm() > 0))
     throw Fault(HL_INVALID_VALUE, "the direction must not be 0");
-  out.set_x(placed.x());
-  out.set_y(placed.y());
-  out.set_z(placed.z());
+  setVec(out, placed.x(), placed.y(), placed.z());
 }
 
 inline Eigen::Matrix3d linearOf(const HLcontext& context) { return context.draw.modelview.top().topLeftCorner<3, 3>(); }

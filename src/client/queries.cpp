@@ -102,7 +102,7 @@ constexpr Query kQueriesOfCalls[] = {
 
 constexpr Query kQueriesOfServer[] = {
     {HL_SESSION, [](const HLcontext& c, Values& v) { v.add(view(c).welcome().session()); }},
-    {HL_MASTER, [](const HLcontext& c, Values& v) { v.add(view(c).isMaster()); }},
+    {HL_MASTER, [](const HLcontext& c, Values& v) { v.add(!c.conversation.hasEnded() && view(c).isMaster()); }},
     {HL_CONNECTED, [](const HLcontext& c, Values& v) { v.add(!c.conversation.hasEnded()); }},
     {HL_FRAME_SENT,
      [](const HLcontext& c, Values& v) { v.add(static_cast<double>(c.conversation.outbox().lastSent())); }},
@@ -146,7 +146,10 @@ constexpr Query kQueriesOfState[] = {
     {HL_STYLUS_SPIN, [](const HLcontext& c, Values& v) { addVec(v, state(c).stylus().spin_rad_s()); }},
     {HL_GRIPPER_ANGLE, [](const HLcontext& c, Values& v) { v.add(state(c).stylus().gripper_rad()); }},
     {HL_GRIPPER_FORCE, [](const HLcontext& c, Values& v) { v.add(state(c).stylus().gripper_n()); }},
-    {HL_SAFETY_STATE, [](const HLcontext& c, Values& v) { v.add(HL_SAFETY_OFF + int{state(c).safety()}); }},
+    {HL_SAFETY_STATE,
+     [](const HLcontext& c, Values& v) {
+       v.add(HL_SAFETY_OFF + (c.conversation.hasEnded() ? 0 : int{state(c).safety()}));
+     }},
     {HL_SERVO_RATE, [](const HLcontext& c, Values& v) { v.add(state(c).servo().rate_hz()); }},
     {HL_PROXY_RATE, [](const HLcontext& c, Values& v) { v.add(state(c).proxy_loop().rate_hz()); }},
     {HL_SERVO_DEADLINES_MISSED,

@@ -24,14 +24,23 @@ HLuint TextureTable::generate() {
   return ++highest_;
 }
 
+void TextureTable::undoChanges() {
+  changes_.undo(textures_);
+  changed_.clear();
+  removed_ = removed_before_;
+}
+
 void TextureTable::bind(HLuint texture) {
   if (texture == 0) return;
+  if (!contains(texture)) changes_.remember(textures_, texture);
   textures_.try_emplace(texture);
   highest_ = std::max(highest_, texture);
 }
 
 void TextureTable::remove(HLuint texture) {
-  if (textures_.erase(texture) == 0) return;
+  if (!contains(texture)) return;
+  changes_.remember(textures_, texture);
+  textures_.erase(texture);
   changed_.erase(texture);
   removed_.insert(texture);
 }
@@ -42,6 +51,7 @@ bool TextureTable::hasImage(HLuint texture) const {
 }
 
 Texture& TextureTable::change(HLuint texture) {
+  changes_.remember(textures_, texture);
   changed_.insert(texture);
   return textures_.at(texture);
 }
@@ -59,6 +69,8 @@ TextureTable::Changes TextureTable::takeChanges(const std::set<HLuint>& used) {
     changes.removed.insert(texture);
     return true;
   });
+  removed_before_ = removed_;
+  changes_.forget();
   return changes;
 }
 

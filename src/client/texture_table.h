@@ -7,6 +7,8 @@
 #include <set>
 #include <string>
 
+#include "client/table_changes.h"
+
 namespace hl::client {
 
 /// Most texels along a side; the whole image must also fit into one message of the server's.
@@ -43,10 +45,14 @@ class TextureTable {
   };
   Changes takeChanges(const std::set<HLuint>& used);
   bool hasRemoved() const { return !removed_.empty(); }
+  /// As it was after the last takeChanges().
+  void undoChanges();
 
  private:
   std::set<HLuint> changed_, removed_;
   std::map<HLuint, Texture> textures_;
+  TableChanges<Texture> changes_;
+  std::set<HLuint> removed_before_;
   HLuint highest_ = 0;
 };
 

@@ -19,6 +19,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/duration.h"
 #include "base/error.h"
 #include "base/guarded_thread.h"
 #include "client/connect_stream.h"
@@ -35,10 +36,6 @@ namespace {
 
 constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kPiece_bytes = std::size_t{64} * 1024;  // frames of a large message; pings pass between them
-
-std::chrono::nanoseconds duration(double seconds) {
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * seconds));
-}
 
 class WebsocketLink : public Link {
  public:
@@ -88,11 +85,11 @@ class WebsocketLink : public Link {
 
  private:
   asio::awaitable<void> connect() {
-    stream_ = co_await connectStream(address_, tls_.get(), duration(settings_.connect_s));
+    stream_ = co_await connectStream(address_, tls_.get(), durationOf(settings_.connect_s));
     socket_.emplace(*stream_);
     websocket::stream_base::timeout patience{};
-    patience.handshake_timeout = duration(settings_.connect_s);
-    patience.idle_timeout = duration(settings_.silence_s);
+    patience.handshake_timeout = durationOf(settings_.connect_s);
+    patience.idle_timeout = durationOf(settings_.silence_s);
     patience.keep_alive_pings = true;
     socket_->setTimeout(patience);
     socket_->setReadLimit(settings_.reply_bytes);
@@ -191,7 +188,7 @@ class WebsocketLink : public Link {
   // A server that takes nothing for so long does not keep the program from ending.
   void giveUpLater() {
     if (finished_) return;
-    linger_.expires_after(duration(settings_.linger_s));
+    linger_.expires_after(durationOf(settings_.linger_s));
     linger_.async_wait([this](boost::system::error_code cancelled) {
       if (!cancelled) finish("the program has ended the session");
     });

@@ -4,8 +4,8 @@
 
 namespace hl {
 
-Vec3 guarded(PassivityGuard& guard, const GuardSettings& settings, const Vec3& spring_N, const Vec3& way, bool touching,
-             double period_s) {
+Vec3 dampedToPassive(PassivityGuard& guard, const PassivitySettings& settings, const Vec3& spring_N, const Vec3& way,
+                     bool touching, double period_s) {
   guard.energy_J -= guard.held_N.dot(way);
   if (!touching) guard.energy_J = std::min(guard.energy_J, 0.0);
   const double square_m2 = way.squaredNorm();

@@ -11,7 +11,7 @@
 
 namespace hl {
 
-struct GuardSettings {
+struct PassivitySettings {
   bool on = false;
   /// Of the damper, N s/m: a sampled damper is stable below 2 m / T; 20 with the 75 g of a PHANToM at 1 kHz is far
   /// below.
@@ -27,7 +27,7 @@ struct PassivityGuard {
 
 /// Watches the last step, in which the finger went `way`, and adds the damper to `spring_N`. `touching` false: the
 /// finger is free, and what it did not take back of the surface is forgotten; a debt is not. RT-safe.
-Vec3 guarded(PassivityGuard& guard, const GuardSettings& settings, const Vec3& spring_N, const Vec3& way, bool touching,
-             double period_s);
+Vec3 dampedToPassive(PassivityGuard& guard, const PassivitySettings& settings, const Vec3& spring_N, const Vec3& way,
+                     bool touching, double period_s);
 
 }  // namespace hl

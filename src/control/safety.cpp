@@ -21,7 +21,7 @@ std::int64_t taken_ns(const DeviceSample& sample) { return wrappedDifference_ns(
 
 void measureSpeed(Safety& safety, const DeviceSample& sample) {
   const double window_s = age_s(taken_ns(sample), safety.mark_ns);
-  if (window_s >= 0 && window_s < 1e-9 * static_cast<double>(SafetySettings::kSpeedWindow_ns)) return;
+  if (window_s >= 0 && window_s < seconds(SafetySettings::kSpeedWindow_ns)) return;
   // A clock that went back tells no speed: a new window begins.
   safety.speed_m_s = window_s > 0 ? (sample.position - safety.mark_D).norm() / window_s : 0;
   safety.mark_D = sample.position;
@@ -50,8 +50,7 @@ FaultReason judge(const Safety& safety, const SafetySettings& settings, const Se
   if (safety.missed > settings.missed_limit) return FaultReason::kDeadlines;
   if (target.valid && !(target.proxy_D.allFinite() && std::isfinite(target.stiffness))) return FaultReason::kBadTarget;
   // A target from the future is as wrong as one from long ago.
-  if (target.time_ns != 0 &&
-      std::abs(age_s(sample.time_ns, target.time_ns)) > 1e-9 * static_cast<double>(settings.target_lost_ns))
+  if (target.time_ns != 0 && std::abs(age_s(sample.time_ns, target.time_ns)) > seconds(settings.target_lost_ns))
     return FaultReason::kStaleTarget;
   return FaultReason::kNone;
 }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "base/vec.h"
 #include "control/servo_target.h"
@@ -56,12 +57,14 @@ struct SafetySettings {
   double ramp_s = 0.5;                          ///< arming: force grows from zero to full in this time
   std::int64_t target_stale_ns = 50'000'000;    ///< an older target gives zero force
   std::int64_t target_lost_ns = 1'000'000'000;  ///< after so long it is a fault
-  double missed_limit = 500;  ///< periods missed, one forgiven for every kForgiveSteps on time; more is a fault
+  /// Periods missed, one forgiven for every kForgiveSteps on time; more is a fault.
+  double missed_limit = 500;
   DeadMan dead_man = DeadMan::kNone;
   std::uint32_t dead_man_button = 0;  ///< 0..31
   bool arm_again = false;             ///< by itself, when a lost device has returned
 
   static constexpr double kForgiveSteps = 10;
+  static constexpr double kNoLimit = std::numeric_limits<double>::max();
   /// A device that was lost is back when it has been well for so long without a break.
   static constexpr double kReturn_s = 0.5;
   /// Speed is judged over this time at the least: shorter, one count of an encoder looks like a blow. Two of them are

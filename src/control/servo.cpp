@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/clock.h"
 #include "base/plain_math.h"
 
 namespace hl {
@@ -36,7 +37,7 @@ void rest(ServoState& state) {
 }
 
 bool isFresh(const ServoSettings& settings, const ServoTarget& target, const DeviceSample& sample) {
-  return std::abs(age_s(sample.time_ns, target.time_ns)) <= 1e-9 * static_cast<double>(settings.target_stale_ns);
+  return std::abs(age_s(sample.time_ns, target.time_ns)) <= seconds(settings.target_stale_ns);
 }
 
 bool usable(const ServoSettings& settings, const ServoTarget& target, const DeviceSample& sample) {
@@ -132,9 +133,9 @@ ServoOutput stepServo(ServoState& state, const ServoSettings& settings, const Se
   Vec3 effects_N = part * (effectForce(settings.effects, sample, state.velocity_m_s, touching) +
                            fieldForce(state, settings, target, sample));
   effects_N = effects_N.allFinite() ? limited(effects_N, settings.force_limit_N) : Vec3(Vec3::Zero());
-  if (settings.guard.on)
-    spring_N = guarded(state.guard, settings.guard, spring_N, sample.position - state.before_D[0], touching,
-                       settings.period_s);
+  if (settings.passivity.on)
+    spring_N = dampedToPassive(state.guard, settings.passivity, spring_N, sample.position - state.before_D[0], touching,
+                               settings.period_s);
   const Vec3 local_N = makeForce(state, settings, part * spring_N + effects_N, part, sample);
   state.guard.held_N = local_N - effects_N;
   return output(state);

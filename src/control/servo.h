@@ -25,7 +25,7 @@ struct SpringSettings {
   double friction_N = 0;  ///< of the device itself, a lower bound: what it dissipates pays for late hand-over
   LedgerMode ledger = LedgerMode::kTank;  ///< what late hand-over may add
   Effects effects{};
-  GuardSettings guard{};
+  PassivitySettings passivity{};
   VibrationSettings vibration{};
   RemoteInput remote{};
 };

@@ -14,7 +14,7 @@ void ServoOptions::apply(ServoSettings& settings) const {
   settings.dead_man_button = dead_man_button;
   settings.arm_again = arm_again;
   settings.effects = effects;
-  settings.guard = guard;
+  settings.passivity = passivity;
   settings.vibration = vibration;
 }
 

@@ -15,7 +15,7 @@ struct ServoOptions {
   std::uint32_t dead_man_button = 0;
   bool arm_again = false;
   Effects effects{};
-  GuardSettings guard{};
+  PassivitySettings passivity{};
   VibrationSettings vibration{};
 
   void apply(ServoSettings& settings) const;

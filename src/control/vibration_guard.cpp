@@ -10,13 +10,13 @@ namespace {
 // The force turns when it comes back by so much: a count of an encoder, 32 um at 5 kN/m, is 0.16 N.
 constexpr double kTurn_N = 0.25;
 // A swing of less is not looked at.
-constexpr double kLeast_N = 0.3, kLarge_N = 2;
+constexpr double kMin_N = 0.3, kLarge_N = 2;
 // How long a period takes at most, by the size of its swings. People tremble at 8 to 12 Hz, by less than 2 N, and tap
 // at up to 10 Hz, by less than 5 N; by 7 N they do not strike six times a second.
-struct Reach {
+struct PeriodLimit {
   double swing_N, period_s;
 };
-constexpr std::array<Reach, 4> kReach{{{7, 0.160}, {5, 0.115}, {kLarge_N, 0.085}, {kLeast_N, 0.070}}};
+constexpr std::array<PeriodLimit, 4> kPeriodLimits{{{7, 0.160}, {5, 0.115}, {kLarge_N, 0.085}, {kMin_N, 0.070}}};
 // A row goes on for so long at least. Small swings come from rough surfaces too, but not for long.
 constexpr double kLargeRow_s = 0.05, kRow_s = 0.3;
 constexpr double kKeptPart = 0.9;       // of their size four swings keep from one period to the next, or die away
@@ -35,12 +35,12 @@ using Swing = AxisSwings::Swing;
 // Whether this swing is one of those a row is made of.
 bool counts(const Mark& from, const Mark& to) {
   const double own_N = to.own_N - from.own_N, other_N = to.other_N - from.other_N;
-  return std::abs(to.force_N - from.force_N) >= kLeast_N && own_N >= kOwnPart * (own_N + other_N);
+  return std::abs(to.force_N - from.force_N) >= kMin_N && own_N >= kOwnPart * (own_N + other_N);
 }
 
 double longestPeriod_s(double swing_N) {
-  for (const Reach& reach : kReach) {
-    if (swing_N >= reach.swing_N) return reach.period_s;
+  for (const PeriodLimit& limit : kPeriodLimits) {
+    if (swing_N >= limit.swing_N) return limit.period_s;
   }
   return 0;
 }

@@ -77,13 +77,13 @@ std::string networkConfiguration(const DdsReach& reach, double lease_s) {
 
 // The first few: whoever sends what is no packet may send it for ever.
 void tellPerson(const char* program, std::string_view text) {
-  constexpr int kMost = 20;
+  constexpr int kMax = 20;
   static std::atomic<int> told{0};
   const int number = ++told;
-  if (number > kMost) return;
+  if (number > kMax) return;
   while (text.ends_with('\n')) text.remove_suffix(1);
   std::fprintf(stderr, "%s: Cyclone DDS: %.*s%s\n", program, static_cast<int>(text.size()), text.data(),
-               number == kMost ? " (no more of its lines are told)" : "");
+               number == kMax ? " (no more of its lines are told)" : "");
 }
 
 /// Until there is a participant: the first that Cyclone DDS says of why there is none. Several threads may say it.

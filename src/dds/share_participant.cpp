@@ -59,7 +59,7 @@ bool ShareParticipant::takeOne(const Reader& reader) const {
   dds_sample_info_t infos[1];
   if (dds_take(reader.entity, samples, infos, 1, 1) <= 0) return false;
   const auto& packet = *static_cast<const hl_share_Packet*>(samples[0]);
-  if (infos[0].valid_data && packet.bytes._length <= kMostPacket_bytes) {
+  if (infos[0].valid_data && packet.bytes._length <= kMaxPacket_bytes) {
     const char* const bytes = reinterpret_cast<const char*>(packet.bytes._buffer);
     tell_({reader.lane, packet.key, std::string(bytes, packet.bytes._length)});
   } else if (infos[0].valid_data) {

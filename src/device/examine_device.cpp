@@ -105,7 +105,7 @@ DeviceStatus statusWithin(Device& device, double patience_s) {
   for (;;) {
     const std::int64_t now_ns = monotonicNow_ns();
     const DeviceStatus status = device.read(now_ns).status;
-    if (status == DeviceStatus::kOk || 1e-9 * static_cast<double>(now_ns - begin_ns) >= patience_s) return status;
+    if (status == DeviceStatus::kOk || seconds(now_ns - begin_ns) >= patience_s) return status;
     device.write(Vec3::Zero());
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

@@ -11,7 +11,7 @@ namespace {
 // this point spans 95 to 366 mm.
 const Vec3 kOrigin_P(0.19, 0, 0);
 
-Vec3 toDevice(const Vec3& v_P) { return {v_P.y(), v_P.z(), v_P.x()}; }
+Vec3 phantomToDevice(const Vec3& v_P) { return {v_P.y(), v_P.z(), v_P.x()}; }
 Vec3 toPhantom(const Vec3& v_D) { return {v_D.z(), v_D.x(), v_D.y()}; }
 
 }  // namespace
@@ -33,9 +33,9 @@ void PhantomArm::place(const Vec3& tip_D, const Vec3& velocity_m_s) {
   setJoints(q, phantomJacobian(parameters_, q).inverse() * toPhantom(velocity_m_s));
 }
 
-Vec3 PhantomArm::tip_D() const { return toDevice(phantomTip(parameters_, q_) - kOrigin_P); }
+Vec3 PhantomArm::tip_D() const { return phantomToDevice(phantomTip(parameters_, q_) - kOrigin_P); }
 
-Vec3 PhantomArm::velocity_D() const { return toDevice(phantomJacobian(parameters_, q_) * qdot_); }
+Vec3 PhantomArm::velocity_D() const { return phantomToDevice(phantomJacobian(parameters_, q_) * qdot_); }
 
 // The encoders count whole steps, rounded down; kinematics then works on what they say.
 Vec3 PhantomArm::countedJoints() const {
@@ -47,7 +47,7 @@ Vec3 PhantomArm::countedJoints() const {
   return counted;
 }
 
-Vec3 PhantomArm::countedTip_D() const { return toDevice(phantomTip(parameters_, countedJoints()) - kOrigin_P); }
+Vec3 PhantomArm::countedTip_D() const { return phantomToDevice(phantomTip(parameters_, countedJoints()) - kOrigin_P); }
 
 // Torques J' f in DAC counts, within what the motors can give.
 void PhantomArm::drive(const Vec3& force_N) {
@@ -61,7 +61,7 @@ void PhantomArm::drive(const Vec3& force_N) {
 }
 
 Vec3 PhantomArm::motorForce_N() const {
-  return toDevice(phantomJacobian(parameters_, q_).transpose().inverse() * torque_);
+  return phantomToDevice(phantomJacobian(parameters_, q_).transpose().inverse() * torque_);
 }
 
 void PhantomArm::step(const Vec3& pull_N, double dt_s) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/clock.h"
+
 namespace hl {
 
 SimulatedDevice::SimulatedDevice(const SimulatedDeviceSettings& settings)
@@ -42,8 +44,7 @@ DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
   if (stopped_.exchange(false, std::memory_order_acquire)) dropForce();
   const std::int64_t taken_ns = now_ns + static_cast<std::int64_t>(jitter_ns());
   if (time_ns_) {
-    const double elapsed_s =
-        std::clamp(1e-9 * static_cast<double>(taken_ns - *time_ns_), 0.0, settings_.longest_advance_s);
+    const double elapsed_s = std::clamp(seconds(taken_ns - *time_ns_), 0.0, settings_.longest_advance_s);
     const int steps = static_cast<int>(std::ceil(elapsed_s / settings_.step_s));
     for (int i = 0; i < steps; ++i) step(elapsed_s / steps);
     turnWrist(elapsed_s);

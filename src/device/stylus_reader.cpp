@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/clock.h"
 #include "base/turn.h"
 
 namespace hl {
@@ -12,7 +13,7 @@ Stylus StylusReader::read(const Stylus& told, std::int64_t now_ns) {
   if (toUnit(turned)) now.turned = turned;
   if (std::isfinite(told.gripper_rad)) now.gripper_rad = told.gripper_rad;
   if (std::isfinite(told.gripper_N)) now.gripper_N = told.gripper_N;
-  const double elapsed_s = last_ns_ ? 1e-9 * static_cast<double>(now_ns - *last_ns_) : 0;
+  const double elapsed_s = last_ns_ ? seconds(now_ns - *last_ns_) : 0;
   if (elapsed_s > 0) {
     const Vec3 spin_rad_s = rotationVector(now.turned * last_.turned.conjugate()) / elapsed_s;
     const double part = elapsed_s / (elapsed_s + kSpinFilter_s);

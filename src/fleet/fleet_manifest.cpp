@@ -40,6 +40,7 @@ std::string taskText(const FleetPlan& plan, const FleetTask& task, const FleetSt
 
 std::string writeManifest(const FleetPlan& plan, const FleetStore& store, const std::string& folder) {
   const std::string path = folder + "/manifest.json", beside = nameBeside(path);
+  removeBeside(path);
   OutputFile file(beside);
   file.print("{{\n  \"program\": {},\n  \"sweep\": \"{}\",\n  \"rows\": {},\n", quotedText("hl " + plan.program),
              plan.name, plan.rows);

@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "rows are hashed and kept as they are in memory");
 
-constexpr std::size_t kMostRows = 15'000'000;  // messages are smaller than 2 GB
+constexpr std::size_t kMaxRows = 15'000'000;  // messages are smaller than 2 GB
 
 using RowNumbers = std::array<double, kFleetRowNumbers>;
 
@@ -84,9 +84,9 @@ FleetResult FleetRecorder::take(const std::string& name, const TraceTotals& tota
 }
 
 std::string bytesOf(const FleetResult& result) {
-  if (result.rows.size() > kMostRows * kFleetRowNumbers)
+  if (result.rows.size() > kMaxRows * kFleetRowNumbers)
     throw Error(
-        fmt::format("has more than {} rows, too many to keep: leave rows = true out, or part the path", kMostRows));
+        fmt::format("has more than {} rows, too many to keep: leave rows = true out, or part the path", kMaxRows));
   proto::FleetOutcome out;
   out.set_name(result.name);
   for (const double number : numbersIn(result.summary)) out.add_summary(number);

@@ -6,11 +6,10 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "base/descriptor_bytes.h"
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "fleet/beside.h"
 
 namespace hl {
@@ -23,12 +22,9 @@ constexpr const char* kResultEnding = ".result";
 constexpr const char* kFailureEnding = ".failed";
 
 // Whatever else has that name is no result.
-std::optional<std::string> contentOf(const std::string& path) {
+std::optional<std::string> bytesAt(const std::string& path) {
   std::error_code failed;
-  if (!fs::is_regular_file(path, failed)) return {};
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return {};
-  return std::string(std::istreambuf_iterator<char>(in), {});
+  return fs::is_regular_file(path, failed) ? contentOf(path) : std::optional<std::string>();
 }
 
 Digest256 digestOfResult(std::string_view bytes) {
@@ -45,7 +41,7 @@ std::string FleetStore::pathOf(const std::string& name, const char* ending) cons
 }
 
 std::optional<StoredResult> FleetStore::find(const std::string& name) const {
-  const std::optional<std::string> all = contentOf(pathOf(name, kResultEnding));
+  const std::optional<std::string> all = bytesAt(pathOf(name, kResultEnding));
   Digest256 said{};
   if (!all || all->size() < said.size()) return {};
   const std::string_view bytes(all->data(), all->size() - said.size());
@@ -90,7 +86,7 @@ void FleetStore::keepFailure(const std::string& name, const std::string& why) co
 }
 
 std::optional<std::string> FleetStore::failureOf(const std::string& name) const {
-  return contentOf(pathOf(name, kFailureEnding));
+  return bytesAt(pathOf(name, kFailureEnding));
 }
 
 void FleetStore::removeRemains() const {

@@ -165,6 +165,7 @@ FleetProgress progressOf(const FleetPlan& plan, const FleetStore& store) {
 
 void writeFleetTable(const FleetPlan& plan, const FleetStore& store, const std::string& folder) {
   const std::string path = folder + "/result.npz", beside = nameBeside(path);
+  removeBeside(path);
   TableWriter(plan, store, beside).write();
   putInPlace(beside, path);
 }

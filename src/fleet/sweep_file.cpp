@@ -149,7 +149,7 @@ class SweepReader {
     std::size_t count = 1;
     for (const SaidOption& option : said) {
       count *= option.values.size();
-      if (count > kMostTasks) failAt(lineOf(table), tooMany());
+      if (count > kMaxTasks) failAt(lineOf(table), tooMany());
     }
     std::vector<SweepOptions> grid(1);
     for (const SaidOption& option : said) {
@@ -198,8 +198,8 @@ class SweepReader {
     if (const toml::table* range = node.as_table()) {
       checkKeys(*range, kSeedKeys, " in seeds");
       const std::int64_t first = wholeIn(*range, "first"), count = wholeIn(*range, "count");
-      if (count < 1 || count > static_cast<std::int64_t>(kMostTasks))
-        fail(node, fmt::format("the count of seeds is from 1 to {}", kMostTasks));
+      if (count < 1 || count > static_cast<std::int64_t>(kMaxTasks))
+        fail(node, fmt::format("the count of seeds is from 1 to {}", kMaxTasks));
       for (std::int64_t i = 0; i < count; ++i) add(first + i, node);
     } else {
       eachOf(node, [&](const toml::node& item) {
@@ -220,13 +220,13 @@ class SweepReader {
       fail(node == nullptr ? static_cast<const toml::node&>(table) : *node, "seeds need " + key + ", a whole number");
     return node->as_integer()->get();
   }
-  static std::string tooMany() { return fmt::format("more than {} tasks are asked for", kMostTasks); }
+  static std::string tooMany() { return fmt::format("more than {} tasks are asked for", kMaxTasks); }
   void checkCount(const SweepFile& sweep) const {
     std::size_t count = 1;
     for (const std::size_t factor : {sweep.scenes.size(), sweep.paths.size(), sweep.options.size(),
                                      std::max<std::size_t>(1, sweep.seeds.size())}) {
       count *= factor;
-      if (count > kMostTasks) failAt(1, tooMany());
+      if (count > kMaxTasks) failAt(1, tooMany());
     }
   }
 

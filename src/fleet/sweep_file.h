@@ -32,7 +32,7 @@ struct SweepRules {
   std::int64_t most_seed;
 };
 
-inline constexpr std::size_t kMostTasks = 1'000'000;
+inline constexpr std::size_t kMaxTasks = 1'000'000;
 
 /// Throws hl::Error "FILE:LINE: ..." for a file that is no TOML or asks for what is not there.
 SweepFile readSweepFile(const std::string& path, const SweepRules& rules);

@@ -27,7 +27,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::uint32_t kMostMessage_bytes = 1 << 20;
+constexpr std::uint32_t kMaxMessage_bytes = 1 << 20;
 
 bool sendMessage(int pipe, const google::protobuf::MessageLite& message) {
   const auto size = static_cast<std::uint32_t>(message.ByteSizeLong());
@@ -37,16 +37,16 @@ bool sendMessage(int pipe, const google::protobuf::MessageLite& message) {
 
 bool receiveMessage(int pipe, google::protobuf::MessageLite& message) {
   std::uint32_t size = 0;
-  if (!readWhole(pipe, &size, sizeof size) || size > kMostMessage_bytes) return false;
+  if (!readWhole(pipe, &size, sizeof size) || size > kMaxMessage_bytes) return false;
   std::string bytes(size, '\0');
   return readWhole(pipe, bytes.data(), size) && message.ParseFromString(bytes);
 }
 
 std::string lastLineOf(int file) {
-  constexpr off_t kMost = 4096;
+  constexpr off_t kMax = 4096;
   const off_t end = lseek(file, 0, SEEK_END);
-  std::string text(static_cast<std::size_t>(std::clamp<off_t>(end, 0, kMost)), '\0');
-  if (pread(file, text.data(), text.size(), std::max<off_t>(0, end - kMost)) < 0) return {};
+  std::string text(static_cast<std::size_t>(std::clamp<off_t>(end, 0, kMax)), '\0');
+  if (pread(file, text.data(), text.size(), std::max<off_t>(0, end - kMax)) < 0) return {};
   text.erase(std::find_if(text.rbegin(), text.rend(), [](char c) { return c != '\n'; }).base(), text.end());
   return text.substr(text.rfind('\n') + 1);
 }

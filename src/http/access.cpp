@@ -8,6 +8,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/text.h"
+#include "io/sha256.h"
 
 namespace hl {
 
@@ -17,26 +19,11 @@ constexpr std::size_t kMinToken = 16;  // characters: 96 bits when random
 constexpr std::size_t kMaxToken = 256;
 // So that the cookie's value is not the token's own digest.
 constexpr std::string_view kCookieSalt = "hl page cookie of ";
+constexpr std::string_view kBlank = " ";  // around a token in a header
 
 bool isTokenCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
          c == '~' || c == '-';
-}
-
-std::string hexOf(const unsigned char* bytes, std::size_t count) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (std::size_t i = 0; i < count; ++i) {
-    text += kDigits[bytes[i] >> 4];
-    text += kDigits[bytes[i] & 15];
-  }
-  return text;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return text;
 }
 
 }  // namespace
@@ -87,7 +74,7 @@ bool Access::allowsToken(std::string_view token) const {
 bool Access::allowsBearer(std::string_view authorization) const {
   constexpr std::string_view kScheme = "Bearer ";
   if (!authorization.starts_with(kScheme)) return !wantsToken();
-  return allowsToken(trimmed(authorization.substr(kScheme.size())));
+  return allowsToken(trimmed(authorization.substr(kScheme.size()), kBlank));
 }
 
 // The port is part of the name: browsers share cookies between the ports of a host.
@@ -104,7 +91,7 @@ bool Access::allowsCookies(std::string_view cookies) const {
   if (!wants_token_) return true;
   while (!cookies.empty()) {
     const std::size_t end = std::min(cookies.find(';'), cookies.size());
-    const std::string_view one = trimmed(cookies.substr(0, end));
+    const std::string_view one = trimmed(cookies.substr(0, end), kBlank);
     cookies.remove_prefix(std::min(end + 1, cookies.size()));
     if (!one.starts_with(wanted)) continue;
     const Digest given = digestOf(one.substr(wanted.size()));
@@ -121,7 +108,7 @@ void Access::setToken(const std::string& token) {
   const std::scoped_lock lock(mutex_);
   wants_token_ = true;
   token_ = digest;
-  cookie_value_ = hexOf(cookie.data(), cookie.size());
+  cookie_value_ = hexOf(cookie);
 }
 
 Access::Digest Access::digestOf(std::string_view text) {

@@ -22,7 +22,7 @@ namespace http = beast::http;
 
 namespace {
 
-constexpr std::size_t kPiece_bytes = std::size_t{64} * 1024;
+constexpr std::size_t kUploadPiece_bytes = std::size_t{64} * 1024;
 constexpr double kFarewell_s = 2;                              // for a refused sender to read why
 constexpr std::size_t kFarewell_bytes = std::size_t{8} << 20;  // of what it has sent meanwhile
 
@@ -104,7 +104,7 @@ asio::awaitable<bool> UploadReceiver::serve(ConnectionPointer connection, beast:
   // A socket that is closed with unread bytes in it takes back what it has said.
   boost::system::error_code ignored;
   connection->stream.tcp().socket().shutdown(asio::socket_base::shutdown_send, ignored);
-  std::vector<char> rest(kPiece_bytes);
+  std::vector<char> rest(kUploadPiece_bytes);
   for (std::size_t left = kFarewell_bytes; left > rest.size() && !limit.over();) {
     auto [error, got] = co_await connection->stream.tcp().async_read_some(asio::buffer(rest), kAwait);
     if (error) break;
@@ -143,7 +143,7 @@ asio::awaitable<std::optional<UploadRefusal>> UploadReceiver::receive(Connection
     http::response<http::empty_body> go_on(http::status::continue_, 11);
     co_await http::async_write(connection->stream, go_on, kAwait);
   }
-  std::vector<char> piece(kPiece_bytes);
+  std::vector<char> piece(kUploadPiece_bytes);
   std::uint64_t bytes = 0;
   body.parser.body_limit(settings_.limit_bytes);
   while (!body.parser.is_done()) {

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/experimental/awaitable_operators.hpp>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <type_traits>
 #include <utility>
 
 #include "base/clock.h"
+#include "base/duration.h"
 #include "base/error.h"
 #include "base/guarded_thread.h"
+#include "base/utf8.h"
 #include "http/session_waker.h"
 #include "monitor/event_log.h"
 #include "session/message_size.h"
@@ -36,15 +37,10 @@ constexpr double kLongestWait_s = 1;  // without states only the waker wakes, if
 constexpr std::size_t kLight_bytes = std::size_t{16} * 1024;
 constexpr std::size_t kMaxReason_bytes = 123;  // RFC 6455, 5.5: what a close frame holds beside its code
 
-std::chrono::nanoseconds duration(double seconds) {
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * seconds));
-}
-
-// As much of `text` as fits, never half a UTF-8 character.
+// As much of `text` as fits.
 websocket::close_reason closeReason(close_code code, const std::string& text) {
-  std::size_t end = std::min(text.size(), kMaxReason_bytes);
-  while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return {code, beast::string_view(text.data(), end)};
+  const std::string_view begin = beginOf(text, kMaxReason_bytes);
+  return {code, beast::string_view(begin.data(), begin.size())};
 }
 
 proto::ServerReply fatalRefusal(const std::string& text, std::uint64_t frame) {
@@ -95,8 +91,8 @@ bool WebSocketSession::setUp() {
   boost::system::error_code error;
   connection_->stream.tcp().socket().set_option(asio::socket_base::send_buffer_size(kSendBuffer_bytes), error);
   websocket::stream_base::timeout patience{};
-  patience.handshake_timeout = duration(world_.limits.handshake_s);
-  patience.idle_timeout = duration(world_.limits.idle_s);
+  patience.handshake_timeout = durationOf(world_.limits.handshake_s);
+  patience.idle_timeout = durationOf(world_.limits.idle_s);
   patience.keep_alive_pings = true;
   stream_.setTimeout(patience);
   // readMessage() counts the bytes, so that it can say why it refuses; here 0 is no limit.
@@ -150,7 +146,7 @@ void WebSocketSession::refuse(close_code code, RefusedBecause because, std::stri
 }
 
 void WebSocketSession::expectOpen() {
-  open_deadline_.expires_after(duration(world_.limits.handshake_s));
+  open_deadline_.expires_after(durationOf(world_.limits.handshake_s));
   open_deadline_.async_wait([weak = weak_from_this()](boost::system::error_code cancelled) {
     const auto session = weak.lock();
     if (cancelled || !session || session->opened_) return;
@@ -333,13 +329,13 @@ asio::awaitable<void> WebSocketSession::writeMessages() {
     } else if (!todo.end.empty()) {
       end({close_code::policy_error, todo.end, false, {}});
     } else {
-      co_await waker_->wait(duration(todo.wait_s));
+      co_await waker_->wait(durationOf(todo.wait_s));
     }
   }
 }
 
 asio::awaitable<bool> WebSocketSession::writeMessage(MessageForm form, const std::string& bytes) {
-  write_deadline_.expires_after(duration(world_.limits.write_s));
+  write_deadline_.expires_after(durationOf(world_.limits.write_s));
   write_deadline_.async_wait([weak = weak_from_this()](boost::system::error_code cancelled) {
     const auto session = weak.lock();
     if (cancelled || !session) return;

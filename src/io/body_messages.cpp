@@ -25,12 +25,12 @@ void checkVec(const std::string& what, const char* name, const Vec3& v, double m
 }
 
 void checkSpec(const BodySpec& spec) {
-  constexpr double kLeast = 1e-15, kMost = 1e15, kFastest = 1e6;
+  constexpr double kMin = 1e-15, kMax = 1e15, kFastest = 1e6;
   const BodySurface& surface = spec.surface;
-  checkRanges(kBody, {{"mass_kg", spec.mass_kg.value_or(1), kLeast, kMost},
-                      {"density_kg_m3", spec.density_kg_m3, kLeast, kMost},
-                      {"dynamic_friction", surface.dynamic_friction, 0, kMost},
-                      {"static_friction", surface.static_friction, surface.dynamic_friction, kMost},
+  checkRanges(kBody, {{"mass_kg", spec.mass_kg.value_or(1), kMin, kMax},
+                      {"density_kg_m3", spec.density_kg_m3, kMin, kMax},
+                      {"dynamic_friction", surface.dynamic_friction, 0, kMax},
+                      {"static_friction", surface.static_friction, surface.dynamic_friction, kMax},
                       {"restitution", surface.restitution, 0, 1}});
   checkVec(kBody, "velocity_m_s", spec.velocity_m_s, kFastest);
   checkVec(kBody, "spin_rad_s", spec.spin_rad_s, kFastest);
@@ -67,12 +67,12 @@ struct JointParts {
 
 // What would not be a joint is refused with the world that it is in (joint_check.h).
 JointSpec jointOf(const proto::RecordedJoint& in) {
-  constexpr double kMostPlace_m = 1e9;
+  constexpr double kMaxPlace_m = 1e9;
   constexpr const char* kJoint = "a joint";
   JointParts parts;
   readValues(in.joint(), kJoint, parts);
   for (const Vec3& place : {parts.anchor_W, parts.anchor_b_W, parts.axis_W})
-    checkVec(kJoint, "a place", place, kMostPlace_m);
+    checkVec(kJoint, "a place", place, kMaxPlace_m);
   JointSpec joint{in.name(),      parts.kind,       parts.body_a, parts.body_b,
                   parts.anchor_W, parts.anchor_b_W, parts.axis_W, {}};
   joint.along = {parts.low, parts.high, parts.rest, parts.spring, parts.damping, parts.friction, {}};
@@ -127,12 +127,12 @@ void toProto(const Mechanics& mechanics, proto::RecordedMechanics& out) {
 }
 
 Mechanics mechanicsOf(const proto::RecordedMechanics& in) {
-  constexpr double kMost_m_s2 = 1e6;
+  constexpr double kMax_m_s2 = 1e6;
   constexpr const char* kWhat = "what acts on bodies";
   Mechanics mechanics;
   if (in.gravity_m_s2_size() != 3) throw Error(std::string(kWhat) + " makes no sense: gravity has three components");
   mechanics.gravity_m_s2 = {in.gravity_m_s2(0), in.gravity_m_s2(1), in.gravity_m_s2(2)};
-  checkVec(kWhat, "gravity_m_s2", mechanics.gravity_m_s2, kMost_m_s2);
+  checkVec(kWhat, "gravity_m_s2", mechanics.gravity_m_s2, kMax_m_s2);
   for (const proto::RecordedJoint& joint : in.joints()) mechanics.joints.push_back(jointOf(joint));
   return mechanics;
 }

@@ -38,6 +38,9 @@ ByteFile::ByteFile(const std::string& path, Form form, std::uint64_t begin) : pl
   if (form == Form::kGzip) {
     constexpr unsigned kRoom = 1 << 18;
     place_ = 0;
+    std::error_code failed;
+    const std::uint64_t all = std::filesystem::file_size(path, failed);
+    bytes_ = failed || all < begin ? 0 : all - begin;
     packed_.reset(openGzip(path, begin));
     if (!packed_ || gzbuffer(packed_.get(), kRoom) != 0) throw std::bad_alloc();
     if (gzdirect(packed_.get()) != 0) throw Error(kNoGzip);
@@ -51,10 +54,10 @@ ByteFile::ByteFile(const std::string& path, Form form, std::uint64_t begin) : pl
 }
 
 std::size_t ByteFile::some(void* data, std::size_t bytes) {
-  constexpr std::size_t kMost = 1 << 30;  // zlib counts in 32 bits
+  constexpr std::size_t kMax = 1 << 30;  // zlib counts in 32 bits
   std::size_t got = 0;
   if (packed_) {
-    const int read = gzread(packed_.get(), data, static_cast<unsigned>(std::min(bytes, kMost)));
+    const int read = gzread(packed_.get(), data, static_cast<unsigned>(std::min(bytes, kMax)));
     int code = Z_OK;
     gzerror(packed_.get(), &code);
     if (read < 0 || (code != Z_OK && code != Z_STREAM_END)) throw Error(kNoGzip);
@@ -108,7 +111,10 @@ bool ByteFile::line(std::string& text) {
 }
 
 void ByteFile::expect(std::uint64_t bytes) const {
-  if (!packed_ && (bytes_ < place_ || bytes_ - place_ < bytes)) throw Error(kEndsEarly);
+  // Two bits of deflate, a length and a distance, stand for 258 bytes at most.
+  constexpr std::uint64_t kMaxPerByte = 1032;
+  const std::uint64_t most = packed_ ? kMaxPerByte * bytes_ : bytes_;
+  if (most < place_ || most - place_ < bytes) throw Error(kEndsEarly);
 }
 
 void ByteFile::checkEnd() {

@@ -36,7 +36,7 @@ class ByteFile {
   bool line(std::string& text);
   /// Unpacked bytes so far, and where in the file a plain one stands.
   std::uint64_t place() const { return place_; }
-  /// Before a long read: throws at once if a plain file is shorter than what is to come.
+  /// Before a long read: throws at once if the file is shorter than what is to come, or its gzip too short to hold it.
   void expect(std::uint64_t bytes) const;
   /// After the last read: gzip that ends here must have the right checksum.
   void checkEnd();
@@ -48,7 +48,7 @@ class ByteFile {
 
   std::ifstream plain_;
   std::unique_ptr<gzFile_s, Close> packed_;  // instead, of zlib
-  std::uint64_t place_, bytes_ = 0;          // bytes_: of a plain file
+  std::uint64_t place_, bytes_ = 0;          // bytes_: of the file, of gzip as it is packed
 };
 
 /// The value with its bytes in the other order.

@@ -42,9 +42,8 @@ std::vector<std::string> wordsOf(const std::string& ending, const CadMeshing& me
 CadTask cadTaskOf(const std::vector<std::string>& words) {
   if (words.size() != 4 || words[0] != "--read" || !readsCad(words[1]))
     throw Error("hl-cad reads CAD files for hl, which starts it by itself: try hl touch part.step");
-  return {
-      words[1],
-      {numberOf(words[2], kLeastDeflection_m, kMostDeflection_m), numberOf(words[3], kLeastAngle_rad, kMostAngle_rad)}};
+  return {words[1],
+          {numberOf(words[2], kMinDeflection_m, kMaxDeflection_m), numberOf(words[3], kMinAngle_rad, kMaxAngle_rad)}};
 }
 
 SceneModel readCad(int descriptor, const std::string& name, const CadTask& task, const IsolationLimits& limits,

@@ -21,11 +21,10 @@ struct CadMeshing {
 };
 
 // What they may be: finer than light sees, coarser than any part.
-inline constexpr double kLeastDeflection_m = 1e-8, kMostDeflection_m = 1e3, kLeastAngle_rad = 0.01,
-                        kMostAngle_rad = 1.5;
+inline constexpr double kMinDeflection_m = 1e-8, kMaxDeflection_m = 1e3, kMinAngle_rad = 0.01, kMaxAngle_rad = 1.5;
 
 /// More triangles than these are refused, with a deflection that would do: some 2 GB where they are touched.
-inline constexpr std::size_t kMostCadTriangles = 20'000'000;
+inline constexpr std::size_t kMaxCadTriangles = 20'000'000;
 
 /// Of this ending: ".step", ".stp", ".iges", ".igs", ".brep".
 bool readsCad(const std::string& ending);

@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "base/finger_reach.h"
 #include "base/plain_file.h"
+#include "base/text.h"
 #include "base/turn.h"
-#include "io/text_words.h"
 
 namespace hl {
 

@@ -65,6 +65,7 @@ std::shared_ptr<const PrimitiveSource> decodeHeights(const proto::Heights& in, c
   const Spacing spacing = spacingOf(in);
   auto field = std::make_shared<const HeightField>(grid, uprightFrame(size, spacing.columns, spacing.rows, spacing.up));
   requireTriangles(*field);
+  requireSlopes(*field);
   return field;
 }
 

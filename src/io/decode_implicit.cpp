@@ -3,20 +3,13 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "io/vec_messages.h"
 
 namespace hl {
 
 namespace {
 
 using What = proto::Expression::WhatCase;
-
-Vec3 vecOfMessage(const proto::Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-void set(proto::Vec3& out, const Vec3& v) {
-  out.set_x(v.x());
-  out.set_y(v.y());
-  out.set_z(v.z());
-}
 
 Expression expressionOf(const proto::Expression& in, std::size_t depth);
 
@@ -42,7 +35,7 @@ void readWhat(const proto::Expression& in, std::size_t depth, Expression& out) {
       out.radius = in.sphere().radius();
       return;
     case What::kBox:
-      out.size = vecOfMessage(in.box().size());
+      out.size = vecOf(in.box().size());
       out.radius = in.box().radius();
       return;
     case What::kCylinder:
@@ -54,7 +47,7 @@ void readWhat(const proto::Expression& in, std::size_t depth, Expression& out) {
       out.radius = in.torus().tube();
       return;
     case What::kHalfSpace:
-      out.normal = vecOfMessage(in.half_space().normal());
+      out.normal = vecOf(in.half_space().normal());
       out.distance = in.half_space().distance();
       return;
     case What::kGyroid:
@@ -91,22 +84,22 @@ ExpressionKind kindOf(What what) {
 }
 
 Expression expressionOf(const proto::Expression& in, std::size_t depth) {
-  if (depth > kMostDepth) throw Error("there are more than 24 parts in each other");
+  if (depth > kMaxDepth) throw Error("there are more than 24 parts in each other");
   Expression out;
   readWhat(in, depth, out);
   out.kind = kindOf(in.what_case());
-  out.place = vecOfMessage(in.translate());
-  out.axis = in.has_axis() ? vecOfMessage(in.axis()) : Vec3(0, 0, 0);
+  out.place = vecOf(in.translate());
+  out.axis = in.has_axis() ? vecOf(in.axis()) : Vec3(0, 0, 0);
   out.degrees = in.degrees();
   out.scale = in.scale() == 0 ? 1 : in.scale();
   return out;
 }
 
-void write(const Expression& in, proto::Expression& out);
+void fill(const Expression& in, proto::Expression& out);
 
 void writeParts(const Expression& in, proto::Expression::Parts& out) {
   out.set_smooth(in.smooth);
-  for (const Expression& part : in.parts) write(part, *out.add_of());
+  for (const Expression& part : in.parts) fill(part, *out.add_of());
 }
 
 template <typename Message>
@@ -120,7 +113,7 @@ void writeWhat(const Expression& in, proto::Expression& out) {
     case ExpressionKind::kSphere:
       return out.mutable_sphere()->set_radius(in.radius);
     case ExpressionKind::kBox:
-      set(*out.mutable_box()->mutable_size(), in.size);
+      toProto(in.size, *out.mutable_box()->mutable_size());
       return out.mutable_box()->set_radius(in.radius);
     case ExpressionKind::kCylinder:
       return writeRod(in, *out.mutable_cylinder());
@@ -130,7 +123,7 @@ void writeWhat(const Expression& in, proto::Expression& out) {
       out.mutable_torus()->set_radius(in.ring);
       return out.mutable_torus()->set_tube(in.radius);
     case ExpressionKind::kHalfSpace:
-      set(*out.mutable_half_space()->mutable_normal(), in.normal);
+      toProto(in.normal, *out.mutable_half_space()->mutable_normal());
       return out.mutable_half_space()->set_distance(in.distance);
     case ExpressionKind::kGyroid:
       out.mutable_gyroid()->set_period(in.period);
@@ -143,17 +136,17 @@ void writeWhat(const Expression& in, proto::Expression& out) {
       return writeParts(in, *out.mutable_difference());
     case ExpressionKind::kShell:
       out.mutable_shell()->set_thickness(in.thickness);
-      return write(in.parts.front(), *out.mutable_shell()->mutable_of());
+      return fill(in.parts.front(), *out.mutable_shell()->mutable_of());
     case ExpressionKind::kOffset:
       out.mutable_offset()->set_distance(in.distance);
-      return write(in.parts.front(), *out.mutable_offset()->mutable_of());
+      return fill(in.parts.front(), *out.mutable_offset()->mutable_of());
   }
 }
 
-void write(const Expression& in, proto::Expression& out) {
+void fill(const Expression& in, proto::Expression& out) {
   writeWhat(in, out);
-  set(*out.mutable_translate(), in.place);
-  set(*out.mutable_axis(), in.axis);
+  toProto(in.place, *out.mutable_translate());
+  toProto(in.axis, *out.mutable_axis());
   out.set_degrees(in.degrees);
   out.set_scale(in.scale);
 }
@@ -169,17 +162,17 @@ std::shared_ptr<const ImplicitSurface> decodeImplicit(const proto::Implicit& in)
   if (!in.has_expression()) throw Error("it needs an expression");
   ImplicitSpec spec;
   spec.expression = expressionOf(in.expression(), 1);
-  if (in.has_bounds()) spec.bounds = Box{vecOfMessage(in.bounds().min()), vecOfMessage(in.bounds().max())};
+  if (in.has_bounds()) spec.bounds = Box{vecOf(in.bounds().min()), vecOf(in.bounds().max())};
   if (in.has_error()) spec.error_m = in.error();
   return std::make_shared<const ImplicitSurface>(spec);
 }
 
 void toProto(const ImplicitSurface& surface, proto::RecordedImplicit& out) {
   const ImplicitSpec& spec = surface.spec();
-  write(spec.expression, *out.mutable_surface()->mutable_expression());
+  fill(spec.expression, *out.mutable_surface()->mutable_expression());
   if (spec.bounds) {
-    set(*out.mutable_surface()->mutable_bounds()->mutable_min(), spec.bounds->min);
-    set(*out.mutable_surface()->mutable_bounds()->mutable_max(), spec.bounds->max);
+    toProto(spec.bounds->min, *out.mutable_surface()->mutable_bounds()->mutable_min());
+    toProto(spec.bounds->max, *out.mutable_surface()->mutable_bounds()->mutable_max());
   }
   out.mutable_surface()->set_error(spec.error_m);
   for (const double value : surface.frame().axes.reshaped()) out.add_axes(value);

@@ -10,7 +10,7 @@ namespace hl {
 
 namespace {
 
-constexpr double kLeastPatchError_m = 1e-9, kMostPatchError_m = 1e9;
+constexpr double kMinPatchError_m = 1e-9, kMaxPatchError_m = 1e9;
 
 NurbsPatch patchOf(const proto::Patch& in) {
   const auto numbers = [](int count) { return std::to_string(count); };
@@ -35,7 +35,7 @@ NurbsPatch patchOf(const proto::Patch& in) {
 
 PatchPlan planOf(const proto::Primitives& in) {
   const double error_m = in.patch_error();
-  if (error_m != 0 && !(error_m >= kLeastPatchError_m && error_m <= kMostPatchError_m))
+  if (error_m != 0 && !(error_m >= kMinPatchError_m && error_m <= kMaxPatchError_m))
     throw Error("patchError must be from 1e-9 to 1e9");
   std::vector<NurbsPatch> patches;
   patches.reserve(static_cast<std::size_t>(in.patches_size()));

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "surfaces/grid_frame.h"
 #include "surfaces/sample_room.h"
 #include "surfaces/samples.h"
 
@@ -54,9 +55,8 @@ std::shared_ptr<const void> samplesOf(const Message& in, std::uint64_t bytes) {
 
 /// A length or a factor that is given, or what stands for one that is left out, which reads as 0. Throws hl::Error.
 inline double lengthOf(double given, double otherwise, const char* name) {
-  constexpr double kLeast = 1e-12, kMost = 1e9;
   if (given == 0) return otherwise;
-  if (!(given >= kLeast && given <= kMost)) throw Error(std::string(name) + " must be from 1e-12 to 1e9");
+  if (!(given >= kMinGridStep && given <= kMaxGridStep)) throw Error(std::string(name) + " must be from 1e-12 to 1e9");
   return given;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/direction.h"
 #include "base/error.h"
 #include "bodies/joint_check.h"
 #include "io/decode_patches.h"
@@ -17,14 +18,15 @@ namespace hl {
 namespace {
 
 // Of what acts along a joint's coordinate: m, rad, N, N m and what is made of them.
-constexpr double kMostAlong = 1e9;
+constexpr double kMaxAlong = 1e9;
 
 constexpr std::uint32_t kDefaultSize = 64;
 
-constexpr double kMostPlace_m = 1e6;                        // of joints, snaps and fields, each coordinate
-constexpr double kLeastOfPlace = 1e-9, kMostOfPlace = 1e9;  // of snaps and fields: m and N
+constexpr double kAnyLength = std::numeric_limits<double>::max();  // of directions
+constexpr double kMaxPlace_m = 1e6;                                // of joints, snaps and fields, each coordinate
+constexpr double kMinOfPlace = 1e-9, kMaxOfPlace = 1e9;            // of snaps and fields: m and N
 // Far above any device: its limit of force cuts it. Stiffer springs and stronger drags would shake a hand.
-constexpr double kMostFieldForce_N = 1000, kMostFieldStiffness_N_m = 1e6, kMostFieldDamping_Ns_m = 100;
+constexpr double kMaxFieldForce_N = 1000, kMaxFieldStiffness_N_m = 1e6, kMaxFieldDamping_Ns_m = 100;
 
 const google::protobuf::FieldDescriptor& fieldOf(const google::protobuf::Message& message, const char* name) {
   return *message.GetDescriptor()->FindFieldByName(name);
@@ -182,28 +184,27 @@ SurfaceChange SceneDecoder::surface(const proto::Material& in, const std::string
 }
 
 BodySpec SceneDecoder::body(const proto::Body& in, const std::string& where) const {
-  constexpr double kMostMass_kg = 1e9, kLeastMass_kg = 1e-9, kMostDensity_kg_m3 = 1e6, kMostFriction = 1e3;
-  constexpr double kMostSpeed_m_s = 100, kMostSpin_rad_s = 1000;
+  constexpr double kMaxMass_kg = 1e9, kMinMass_kg = 1e-9, kMaxDensity_kg_m3 = 1e6, kMaxFriction = 1e3;
+  constexpr double kMaxSpeed_m_s = 100, kMaxSpin_rad_s = 1000;
   BodySpec spec;
   spec.fixed = in.fixed();
-  if (in.has_mass_kg()) spec.mass_kg = checked(in.mass_kg(), kLeastMass_kg, kMostMass_kg, where + ".massKg");
+  if (in.has_mass_kg()) spec.mass_kg = checked(in.mass_kg(), kMinMass_kg, kMaxMass_kg, where + ".massKg");
   if (in.has_density_kg_m3())
-    spec.density_kg_m3 =
-        checked(in.density_kg_m3(), 1 / kMostDensity_kg_m3, kMostDensity_kg_m3, where + ".densityKgM3");
+    spec.density_kg_m3 = checked(in.density_kg_m3(), 1 / kMaxDensity_kg_m3, kMaxDensity_kg_m3, where + ".densityKgM3");
   if (!proto::BodyShape_IsValid(in.shape())) fail(where + ".shape", where + ".shape is none that HL knows");
   spec.shape = static_cast<BodyShape>(in.shape());
   BodySurface& surface = spec.surface;
   if (in.has_static_friction())
-    surface.static_friction = checked(in.static_friction(), 0, kMostFriction, where + ".staticFriction");
+    surface.static_friction = checked(in.static_friction(), 0, kMaxFriction, where + ".staticFriction");
   if (in.has_dynamic_friction())
-    surface.dynamic_friction = checked(in.dynamic_friction(), 0, kMostFriction, where + ".dynamicFriction");
+    surface.dynamic_friction = checked(in.dynamic_friction(), 0, kMaxFriction, where + ".dynamicFriction");
   if (!in.has_static_friction() && in.has_dynamic_friction()) surface.static_friction = surface.dynamic_friction;
   if (!in.has_dynamic_friction() && in.has_static_friction()) surface.dynamic_friction = surface.static_friction;
   if (surface.static_friction < surface.dynamic_friction)
     fail(where + ".staticFriction", where + ".staticFriction must not be less than dynamicFriction");
   if (in.has_restitution()) surface.restitution = checked(in.restitution(), 0, 1, where + ".restitution");
-  spec.velocity_m_s = checked(in.velocity_m_s(), kMostSpeed_m_s, where + ".velocityMS");
-  spec.spin_rad_s = checked(in.spin_rad_s(), kMostSpin_rad_s, where + ".spinRadS");
+  spec.velocity_m_s = checked(in.velocity_m_s(), kMaxSpeed_m_s, where + ".velocityMS");
+  spec.spin_rad_s = checked(in.spin_rad_s(), kMaxSpin_rad_s, where + ".spinRadS");
   return spec;
 }
 
@@ -211,11 +212,11 @@ ForceTable SceneDecoder::forceTable(const proto::ForceTable& in, const std::stri
   ForceTable table;
   if (in.position_size() != in.force_size())
     fail(where, where + ": a force table must have as many forces as positions");
-  if (static_cast<std::size_t>(in.position_size()) > kMostTableRows)
+  if (static_cast<std::size_t>(in.position_size()) > kMaxTableRows)
     fail(where, where + ": a force table has at most 256 rows");
   for (int i = 0; i < in.position_size(); ++i) {
-    table.position.push_back(checked(in.position(i), -kMostAlong, kMostAlong, pathOf(where + ".position", i)));
-    table.force.push_back(checked(in.force(i), -kMostAlong, kMostAlong, pathOf(where + ".force", i)));
+    table.position.push_back(checked(in.position(i), -kMaxAlong, kMaxAlong, pathOf(where + ".position", i)));
+    table.force.push_back(checked(in.force(i), -kMaxAlong, kMaxAlong, pathOf(where + ".force", i)));
     if (i > 0 && !(in.position(i) > in.position(i - 1)))
       fail(pathOf(where + ".position", i), where + ": the positions of a force table must increase");
   }
@@ -224,13 +225,13 @@ ForceTable SceneDecoder::forceTable(const proto::ForceTable& in, const std::stri
 
 JointForces SceneDecoder::jointForces(const proto::Joint& in, const std::string& where) const {
   JointForces along;
-  if (in.has_low()) along.low = checked(in.low(), -kMostAlong, kMostAlong, where + ".low");
-  if (in.has_high()) along.high = checked(in.high(), -kMostAlong, kMostAlong, where + ".high");
+  if (in.has_low()) along.low = checked(in.low(), -kMaxAlong, kMaxAlong, where + ".low");
+  if (in.has_high()) along.high = checked(in.high(), -kMaxAlong, kMaxAlong, where + ".high");
   if (along.low > along.high) fail(where + ".low", where + ".low must not be above high");
-  along.rest = checked(in.rest(), -kMostAlong, kMostAlong, where + ".rest");
-  along.spring = checked(in.spring(), 0, kMostAlong, where + ".spring");
-  along.damping = checked(in.damping(), 0, kMostAlong, where + ".damping");
-  along.friction = checked(in.friction(), 0, kMostAlong, where + ".friction");
+  along.rest = checked(in.rest(), -kMaxAlong, kMaxAlong, where + ".rest");
+  along.spring = checked(in.spring(), 0, kMaxAlong, where + ".spring");
+  along.damping = checked(in.damping(), 0, kMaxAlong, where + ".damping");
+  along.friction = checked(in.friction(), 0, kMaxAlong, where + ".friction");
   along.table = forceTable(in.table(), where + ".table");
   return along;
 }
@@ -240,30 +241,33 @@ JointSpec SceneDecoder::joint(const proto::Joint& in, const std::string& where) 
   spec.name = in.name().empty() ? where : in.name();
   if (!proto::JointKind_IsValid(in.kind())) fail(where + ".kind", where + ".kind is none that HL knows");
   spec.kind = static_cast<JointKind>(in.kind());
-  spec.anchor_W = checked(in.anchor(), kMostPlace_m, where + ".anchor");
-  spec.anchor_b_W = checked(in.anchor_b(), kMostPlace_m, where + ".anchorB");
+  spec.anchor_W = checked(in.anchor(), kMaxPlace_m, where + ".anchor");
+  spec.anchor_b_W = checked(in.anchor_b(), kMaxPlace_m, where + ".anchorB");
   const bool has_axis = spec.kind == JointKind::kHinge || spec.kind == JointKind::kSlider;
-  if (has_axis) spec.axis_W = checked(in.axis(), kMostPlace_m, where + ".axis");
-  if (has_axis && !(spec.axis_W.norm() > 0)) fail(where + ".axis", where + ": a hinge or slider needs an axis");
+  if (has_axis) {
+    const std::optional<Vec3> axis = unitOf(checked(in.axis(), kAnyLength, where + ".axis"));
+    if (!axis) fail(where + ".axis", where + ": a hinge or slider needs an axis");
+    spec.axis_W = *axis;
+  }
   spec.along = jointForces(in, where);
   spec.collide = in.collide();
   return spec;
 }
 
 Vec3 SceneDecoder::unit(const proto::Vec3& in, const std::string& where) const {
-  const Vec3 vector = checked(in, kMostPlace_m, where);
-  if (!(vector.stableNorm() > 0)) fail(where, where + " must not be zero");
-  return vector.stableNormalized();
+  const std::optional<Vec3> unit = unitOf(checked(in, kAnyLength, where));
+  if (!unit) fail(where, where + " must not be zero");
+  return *unit;
 }
 
 std::vector<Vec3> SceneDecoder::corners(const google::protobuf::RepeatedField<double>& in,
                                         const std::string& where) const {
   const auto count = static_cast<std::size_t>(in.size()) / 3;
   if (in.size() % 3 != 0 || count == 0) fail(where, where + " must hold 3 numbers each, of one point or more");
-  if (count > kMostCorners) fail(where, fmt::format("{} must not be more than {}", where, kMostCorners));
+  if (count > kMaxCorners) fail(where, fmt::format("{} must not be more than {}", where, kMaxCorners));
   std::vector<Vec3> points;
   for (int i = 0; i < in.size(); i += 3) {
-    const auto number = [&](int k) { return checked(in[i + k], -kMostPlace_m, kMostPlace_m, where); };
+    const auto number = [&](int k) { return checked(in[i + k], -kMaxPlace_m, kMaxPlace_m, where); };
     points.emplace_back(number(0), number(1), number(2));
   }
   return points;
@@ -281,8 +285,8 @@ SnapSpec SceneDecoder::snap(const proto::Snap& in, const std::string& where) con
   snap.name = in.name();
   snap.points = corners(in.points(), where + ".points");
   snap.normal = planeNormal(in.has_normal(), in.normal(), snap.points.size(), where);
-  snap.capture_m = checked(in.capture(), kLeastOfPlace, kMostOfPlace, where + ".capture");
-  snap.release_N = checked(in.release_n(), kLeastOfPlace, kMostOfPlace, where + ".releaseN");
+  snap.capture_m = checked(in.capture(), kMinOfPlace, kMaxOfPlace, where + ".capture");
+  snap.release_N = checked(in.release_n(), kMinOfPlace, kMaxOfPlace, where + ".releaseN");
   return snap;
 }
 
@@ -294,23 +298,23 @@ FieldSpec SceneDecoder::field(const proto::Field& in, const std::string& where) 
   field.kind = static_cast<FieldKind>(in.kind());
   field.points = corners(in.points(), where + ".points");
   field.normal = planeNormal(in.has_normal(), in.normal(), field.points.size(), where);
-  field.reach_m = checked(in.reach(), kLeastOfPlace, kMostOfPlace, where + ".reach");
+  field.reach_m = checked(in.reach(), kMinOfPlace, kMaxOfPlace, where + ".reach");
   const auto number = [&](bool wanted, double value, double most, const char* name) {
-    return wanted ? checked(value, kLeastOfPlace, most, where + name) : checked(value, 0, 0, where + name);
+    return wanted ? checked(value, kMinOfPlace, most, where + name) : checked(value, 0, 0, where + name);
   };
   const bool drag = field.kind == FieldKind::kDrag, spring = field.kind == FieldKind::kSpring;
   const bool unlimited = spring && in.force_n() == 0;
-  field.force_N = unlimited ? kMostFieldForce_N : number(!drag, in.force_n(), kMostFieldForce_N, ".forceN");
-  field.stiffness_N_m = number(spring, in.stiffness_n_m(), kMostFieldStiffness_N_m, ".stiffnessNM");
-  field.damping_Ns_m = number(drag, in.damping_ns_m(), kMostFieldDamping_Ns_m, ".dampingNsM");
+  field.force_N = unlimited ? kMaxFieldForce_N : number(!drag, in.force_n(), kMaxFieldForce_N, ".forceN");
+  field.stiffness_N_m = number(spring, in.stiffness_n_m(), kMaxFieldStiffness_N_m, ".stiffnessNM");
+  field.damping_Ns_m = number(drag, in.damping_ns_m(), kMaxFieldDamping_Ns_m, ".dampingNsM");
   if (field.kind == FieldKind::kConstant) field.direction = unit(in.direction(), where + ".direction");
   return field;
 }
 
 FieldList SceneDecoder::fields(const google::protobuf::RepeatedPtrField<proto::Field>& in,
                                const std::string& where) const {
-  if (static_cast<std::size_t>(in.size()) > kMostFields)
-    fail(where, fmt::format("{}: there are more than {}", where, kMostFields));
+  if (static_cast<std::size_t>(in.size()) > kMaxFields)
+    fail(where, fmt::format("{}: there are more than {}", where, kMaxFields));
   FieldList fields;
   for (int i = 0; i < in.size(); ++i) fields.push_back(field(in[i], pathOf(where, i)));
   return fields;
@@ -318,8 +322,8 @@ FieldList SceneDecoder::fields(const google::protobuf::RepeatedPtrField<proto::F
 
 SnapList SceneDecoder::snaps(const google::protobuf::RepeatedPtrField<proto::Snap>& in,
                              const std::string& where) const {
-  if (static_cast<std::size_t>(in.size()) > kMostSnaps)
-    fail(where, fmt::format("{}: there are more than {}", where, kMostSnaps));
+  if (static_cast<std::size_t>(in.size()) > kMaxSnaps)
+    fail(where, fmt::format("{}: there are more than {}", where, kMaxSnaps));
   SnapList snaps;
   for (int i = 0; i < in.size(); ++i) snaps.push_back(snap(in[i], pathOf(where, i)));
   return snaps;

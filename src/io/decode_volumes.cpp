@@ -54,7 +54,8 @@ GridFrame uprightFrame(const Sides& side, const Vec3& spacing) { return centred(
 std::uint64_t bytesToMakeVolume(const proto::Volume& in) {
   constexpr std::uint64_t kSmallest = 8192;
   const std::uint64_t bytes = bytesOfSamples(in);
-  return kSmallest + bytes + bytes / 2;  // the pyramid takes a 16th of 16-bit samples, and more of the thinnest grids
+  // The pyramid takes a 16th of 16-bit samples, and of the thinnest grids, with the slices of its bricks, 7 / 12.
+  return kSmallest + bytes + bytes / 8 * 5;
 }
 
 PlacedVolume decodeVolume(const proto::Volume& in) {
@@ -102,12 +103,14 @@ IsoChoice isoChoiceOf(const proto::IsoUpdate& in) { return choiceOf(true, in.val
 
 std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const IsoChoice& iso,
                                                std::shared_ptr<const MatterTable> matter) {
-  if (const ValueRange& range = volume.volume->pyramid.range(); !(range.low <= range.high))
-    throw Error("all its samples are missing");
+  requireValues(*volume.volume);
   const auto found = [&] { return IsoValue{iso.value ? 0 : thresholdOf(*volume.volume)}; };
   const IsoValue value = iso.over(volume.iso ? *volume.iso : found());
   auto surface = std::make_shared<const IsoSurface>(volume.volume, volume.frame, value, std::move(matter));
-  requireSurface(*surface);
+  // A volume of one value is no mistake of who has not chosen the iso value: it comes with a warning.
+  const ValueRange& range = volume.volume->pyramid.range();
+  const bool one_value = range.low == range.high && value.value == range.low;
+  if (iso.value || !one_value) requireSurface(*surface);
   return surface;
 }
 

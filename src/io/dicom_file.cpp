@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/file_ending.h"
-#include "io/text_words.h"
 
 namespace hl {
 
@@ -157,9 +157,9 @@ DicomFile dicomFileOf(const std::string& path, const gdcm::File& in) {
   file.series = dicomText(set, {0x0020, 0x000e});
   if (file.series.empty()) file.series = "without a name";
   file.description = dicomText(set, {0x0008, 0x103e});
-  constexpr double kMostFrames = 1e6;
+  constexpr double kMaxFrames = 1e6;
   const double frames = dicomNumber(set, {0x0028, 0x0008}, 1);
-  if (!(frames >= 1 && frames <= kMostFrames))
+  if (!(frames >= 1 && frames <= kMaxFrames))
     throw Error(fmt::format("is not sound DICOM: it has {:g} frames", frames));
   file.frames = static_cast<std::size_t>(frames);
   file.bits = shortOf<0x0028, 0x0101>(set);

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "base/error.h"
+#include "base/plain_file.h"
+#include "io/companion_file.h"
 #include "io/load_image.h"
 
 namespace hl {
@@ -20,8 +19,7 @@ namespace json = boost::json;
 
 // A .glb starts with "glTF", version, length; then the length and type of the JSON chunk, and the chunk.
 std::string jsonTextOf(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string text = contentOf(path).value_or("");
   constexpr std::size_t kHeader = 20;
   if (!text.starts_with("glTF") || text.size() < kHeader) return text;
   std::uint32_t length = 0;
@@ -64,8 +62,7 @@ const json::value* elementOf(const json::array& list, const json::value& value,
 
 class Reader {
  public:
-  Reader(const std::string& path, const json::value& file, bool alone)
-      : folder_(std::filesystem::path(path).parent_path()), file_(file), alone_(alone) {}
+  Reader(const std::string& path, const json::value& file, bool alone) : path_(path), file_(file), alone_(alone) {}
 
   GltfHaptics read();
 
@@ -76,7 +73,7 @@ class Reader {
                   Material& material);
   bool isOnlyName(const std::string& name) const;
 
-  const std::filesystem::path folder_;
+  const std::string path_;
   const json::value& file_;
   const bool alone_;
   GltfHaptics result_;
@@ -110,7 +107,7 @@ void Reader::addTexture(const json::value& items, std::initializer_list<Quantity
     return;
   }
   try {
-    result_.textures.push_back(readImage((folder_ / std::string(uri->as_string())).string()));
+    result_.textures.push_back(readImage(companionPath(path_, std::string(uri->as_string()))));
   } catch (const Error& error) {
     result_.warnings.push_back(std::string("a haptic texture was left out: ") + error.what());
     return;

@@ -143,7 +143,7 @@ class Child {
     clockid_t clock{};
     timespec used{};
     if (clock_getcpuclockid(id_, &clock) == 0 && clock_gettime(clock, &used) == 0)
-      cpu_s_ = static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+      cpu_s_ = static_cast<double>(used.tv_sec) + seconds(used.tv_nsec);
     return cpu_s_;
   }
   /// Kills it where it still runs; else what waitpid() tells of its own end, though it be only just under way.
@@ -197,8 +197,8 @@ class PipeReader {
       active_ns_ = now_ns;
       cpu_s_ = cpu_s;
     }
-    if (1e-9 * static_cast<double>(now_ns - begin_ns_) > limits_.wall_s) throw Error(kTooLong);
-    if (1e-9 * static_cast<double>(now_ns - active_ns_) > limits_.idle_s) throw Error(kWaits);
+    if (seconds(now_ns - begin_ns_) > limits_.wall_s) throw Error(kTooLong);
+    if (seconds(now_ns - active_ns_) > limits_.idle_s) throw Error(kWaits);
     return there;
   }
 

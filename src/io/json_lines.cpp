@@ -2,15 +2,19 @@
 
 #include <boost/json/basic_parser_impl.hpp>
 #include <cmath>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include "base/error.h"
+#include "io/text_words.h"
 
 namespace hl {
 
 namespace {
 
 constexpr std::size_t kDeepest = 32;
+constexpr const char* kTwice = "\" is there twice in one object";
 
 // Follows the parser through the text; with a path to look for, notes the line of the last value whose own path is a
 // beginning of it, which is the value itself or the nearest around it.
@@ -29,6 +33,7 @@ struct LineHandler {
     bool array = false;
     bool off = false;  // not on the way to the wanted path
     std::size_t next = 0;
+    std::set<std::string> names{};  // of an object, until one is there twice
   };
 
   const std::string* wanted = nullptr;
@@ -37,6 +42,7 @@ struct LineHandler {
   std::vector<Level> levels;
   std::string key, part;
   bool out_of_range = false;
+  std::optional<std::string> twice;  // a name in one object
 
   // Whether `path` is that of a value on the way to the wanted one.
   bool leads(const std::string& path) const {
@@ -63,7 +69,7 @@ struct LineHandler {
   bool begin(bool array) {
     const std::string path = enter();
     const bool on_way = note(path);
-    levels.push_back({on_way ? path : std::string(), array, !on_way, 0});
+    levels.push_back({on_way ? path : std::string(), array, !on_way});
     return true;
   }
   bool scalar() {
@@ -87,11 +93,14 @@ struct LineHandler {
     part.append(text.data(), text.size());
     return true;
   }
-  bool on_key(string_view text, std::size_t, error_code&) {
+  bool on_key(string_view text, std::size_t, error_code& error) {
     key = part;
     key.append(text.data(), text.size());
     part.clear();
-    return true;
+    if (wanted != nullptr || levels.back().names.insert(key).second) return true;
+    twice = key;
+    error = boost::json::error::syntax;
+    return false;
   }
   bool on_string_part(string_view, std::size_t, error_code&) { return true; }
   bool on_string(string_view, std::size_t, error_code&) { return scalar(); }
@@ -143,6 +152,7 @@ JsonLines::JsonLines(const std::string& file, std::string_view text) : text_(tex
   if (!error) return;
   const std::string where = file + ":" + std::to_string(parser.handler().line) + ": ";
   if (parser.handler().out_of_range) throw Error(where + "a number is out of range");
+  if (parser.handler().twice) throw Error(where + "the name \"" + shown(*parser.handler().twice) + kTwice);
   if (error == boost::json::error::too_deep)
     throw Error(where + "values are nested deeper than " + std::to_string(kDeepest));
   throw Error(where + "this is not JSON: " + error.message());
@@ -153,6 +163,13 @@ std::size_t JsonLines::lineOf(const std::string& path) const {
   parser.handler().wanted = &path;
   follow(text_, parser);
   return parser.handler().found;
+}
+
+bool JsonLines::has(const std::string& path) const {
+  boost::json::basic_parser<LineHandler> parser(deepest());
+  parser.handler().wanted = &path;
+  follow(text_, parser);
+  return parser.handler().found_length == path.size();
 }
 
 }  // namespace hl

@@ -2,22 +2,26 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fcntl.h>
+#include <fmt/core.h>
 
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
+#include <new>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "io/check_ply.h"
 #include "io/gltf_haptics.h"
 #include "io/load_model.h"
 #include "io/only_file.h"
+#include "io/own_folder.h"
 #include "io/sandbox.h"
+#include "io/text_words.h"
 #include "io/x3d_bodies.h"
 
 namespace hl {
@@ -48,7 +52,7 @@ Eigen::Matrix4d matrixOf(const aiMatrix4x4& m) {
   return out;
 }
 
-Vec3 vecOf(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+Vec3 vecOfAssimp(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
 void appendFaces(Model& model, const aiMesh& mesh, std::uint32_t base, std::uint16_t material) {
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -69,9 +73,9 @@ void appendMesh(Model& model, const aiMesh& mesh, const Eigen::Matrix4d& to_worl
   const Mat3 linear = to_world.topLeftCorner<3, 3>();
   const Mat3 for_normals = linear.inverse().transpose();
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    model.positions.push_back(linear * vecOf(mesh.mVertices[i]) + to_world.topRightCorner<3, 1>());
+    model.positions.push_back(linear * vecOfAssimp(mesh.mVertices[i]) + to_world.topRightCorner<3, 1>());
     const Vec3 normal =
-        mesh.HasNormals() ? Vec3(for_normals * vecOf(mesh.mNormals[i])).normalized() : Vec3(Vec3::Zero());
+        mesh.HasNormals() ? Vec3(for_normals * vecOfAssimp(mesh.mNormals[i])).normalized() : Vec3(Vec3::Zero());
     model.normals.push_back(normal.allFinite() ? normal : Vec3(Vec3::Zero()));
     model.texcoords.emplace_back(mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][i].x : 0,
                                  mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][i].y : 0);
@@ -127,11 +131,6 @@ std::string listOf(const std::set<std::string>& names) {
   return list;
 }
 
-std::string textOf(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 // assimp's words about a file that it knows by another name.
 std::string saidOf(const ModelFile& file, std::string text) {
   const std::string alias = OnlyFile::nameOf(file.ending);
@@ -157,6 +156,14 @@ const aiScene* readAlone(Assimp::Importer& importer, const ModelFile& file, Mode
   return scene;
 }
 
+// `refused`: of OwnFolder; `read`: the file made sense without it.
+void tellRefused(const std::string& refused, bool read, Model& model) {
+  if (refused.empty()) return;
+  const std::string name = shown(std::filesystem::path(refused).filename().string());
+  if (!read) throw Error(fmt::format("names '{}', which is not in its folder: put that file beside it", name));
+  model.warnings.push_back(fmt::format("names '{}', which is not in its folder and is left out", name));
+}
+
 // assimp refuses an OBJ file of less than 16 bytes, which one point is: such a file gets blank lines at its end.
 const aiScene* readScene(Assimp::Importer& importer, const ModelFile& file, Model& model) {
   constexpr std::size_t kMinObj = 16;
@@ -165,13 +172,15 @@ const aiScene* readScene(Assimp::Importer& importer, const ModelFile& file, Mode
   if (file.ending == ".ply") checkPly(path);
   if (file.ending != ".obj" || std::filesystem::file_size(path, error) >= kMinObj || error)
     return file.alone ? readAlone(importer, file, model) : importer.ReadFile(path, aiProcess_Triangulate);
-  std::string text = textOf(path);
+  std::string text = contentOf(path).value_or("");
   text.append(kMinObj, '\n');
   return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "obj");
 }
 
 void addScene(const Assimp::Importer& importer, const ModelFile& file, const aiScene* scene, GltfHaptics&& haptics,
               Model& model) {
+  if (scene == nullptr && std::string_view(importer.GetErrorString()) == std::bad_alloc().what())
+    throw std::bad_alloc();
   if (scene == nullptr) throw Error("cannot be understood: " + saidOf(file, importer.GetErrorString()));
   Import import{*scene, haptics, model};
   if (scene->mRootNode != nullptr) appendNode(import, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0, 0);
@@ -199,15 +208,18 @@ bool assimpReads(const std::string& ending) {
 }
 
 SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report) {
+  std::string refused;
   Assimp::Importer importer;
-  importer.SetProgressHandler(new Progress(report));  // owned by the importer
+  importer.SetProgressHandler(new Progress(report));         // owned by the importer
+  importer.SetIOHandler(new OwnFolder(file.path, refused));  // too; also for what is read from memory
   if (file.ending == ".x3d") {
-    const std::string text = textOf(file.path);
+    const std::string text = contentOf(file.path).value_or("");
     if (speaksOfBodies(text)) return readWithBodies(importer, file, text);
   }
   Model model;
   GltfHaptics haptics = hapticsOf(file);
   const aiScene* scene = readScene(importer, file, model);
+  tellRefused(refused, scene != nullptr, model);
   addScene(importer, file, scene, std::move(haptics), model);
   return model;
 }

@@ -5,8 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,13 +22,6 @@ namespace {
 constexpr std::size_t kMaxTexels = std::size_t{64} << 20;
 constexpr const char* kNoPng = "is not a sound PNG file: ";
 constexpr const char* kNoJpeg = "is not a sound JPEG file: ";
-
-using Bytes = std::vector<unsigned char>;
-
-Bytes bytesOf(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 void checkSize(std::size_t width, std::size_t height) {
   if (width == 0 || height == 0) throw Error("has no pixels");
@@ -73,7 +64,7 @@ Texture decodeRgba(spng_ctx& png, const spng_ihdr& header, spng_format format) {
   });
 }
 
-Texture decodePng(const Bytes& bytes) {
+Texture decodePng(const std::string& bytes) {
   const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png(spng_ctx_new(0), &spng_ctx_free);
   if (!png) throw std::bad_alloc();
   checkPng(spng_set_png_buffer(png.get(), bytes.data(), bytes.size()));
@@ -85,19 +76,20 @@ Texture decodePng(const Bytes& bytes) {
 }
 
 // A torn file is no sound one, though the library would fill it up with grey: it says so by its return value.
-Texture decodeJpeg(const Bytes& bytes) {
+Texture decodeJpeg(const std::string& bytes) {
   const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitDecompress(), &tjDestroy);
   if (!jpeg) throw std::bad_alloc();
   const auto check = [&](int code) {
     if (code != 0) throw Error(kNoJpeg + std::string(tjGetErrorStr2(jpeg.get())));
   };
   int width = 0, height = 0, subsampling = 0, colours = 0;
+  const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
   const auto size = static_cast<unsigned long>(bytes.size());
-  check(tjDecompressHeader3(jpeg.get(), bytes.data(), size, &width, &height, &subsampling, &colours));
+  check(tjDecompressHeader3(jpeg.get(), data, size, &width, &height, &subsampling, &colours));
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
   checkSize(columns, rows);
-  Bytes grey(columns * rows);
-  check(tjDecompress2(jpeg.get(), bytes.data(), size, grey.data(), width, 0, height, TJPF_GRAY, 0));
+  std::vector<unsigned char> grey(columns * rows);
+  check(tjDecompress2(jpeg.get(), data, size, grey.data(), width, 0, height, TJPF_GRAY, 0));
   return textureOf(columns, rows, [&](std::size_t i) { return static_cast<float>(grey[i]) / 255.0f; });
 }
 
@@ -112,7 +104,7 @@ void checkIsImage(const std::string& path) {
 
 Texture readImage(const std::string& path) {
   checkIsImage(path);
-  const Bytes bytes = bytesOf(path);
+  const std::string bytes = contentOf(path).value_or("");
   Texture texture = endingOf(path) == ".png" ? decodePng(bytes) : decodeJpeg(bytes);
   texture.name = std::filesystem::path(path).filename().string();
   return texture;

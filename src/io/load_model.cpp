@@ -1,7 +1,6 @@
 #include "io/load_model.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/open_file.h"
 #include "base/plain_file.h"
 #include "io/file_ending.h"
 #include "io/isolated.h"
@@ -79,9 +79,9 @@ void makePointsOfBareVertices(Model& model) {
 
 // By a program of its own.
 SceneModel readByProgram(const std::string& path, const std::string& ending, const LoadOptions& options) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const OpenFile opened(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const int file = opened.descriptor();
   if (file < 0) throw Error(path + ": may not be read");
-  const std::unique_ptr<const int, void (*)(const int*)> closed(&file, [](const int* it) { close(*it); });
   const std::atomic<bool> given_up{false};
   if (readsVdb(ending)) return readVdb(file, path, {ending, options.grid}, options.limits, given_up, options.progress);
   return readCad(file, path, {ending, options.cad}, options.limits, given_up, options.progress);

@@ -7,22 +7,23 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
 
+#include "base/direction.h"
 #include "base/error.h"
 #include "base/plain_file.h"
 #include "bodies/mesh_body.h"
 #include "builtin.h"
 #include "io/decode_scene.h"
 #include "io/file_ending.h"
+#include "io/json_flags.h"
 #include "io/json_lines.h"
 #include "io/json_words.h"
 #include "io/load_image.h"
 #include "io/scene_surfaces.h"
+#include "io/vec_messages.h"
 #include "scene/append_part.h"
 
 namespace hl {
@@ -34,7 +35,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{64} << 20;
 constexpr std::size_t kMaxFileTexels = std::size_t{8192} * 8192;
 constexpr int kMaxObjects = 60'000;  // materials are counted in 16 bits
-constexpr double kMostGravity_m_s2 = 1000;
+constexpr double kMaxGravity_m_s2 = 1000;
 constexpr const char* kAlone = "names another file, and this one comes alone";
 
 std::string readText(const std::string& path) {
@@ -42,11 +43,11 @@ std::string readText(const std::string& path) {
   std::error_code error;
   if (fs::file_size(path, error) > kMaxFileBytes)
     throw Error(path + ": is larger than 64 MB; put meshes in model files");
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string text = contentOf(path).value_or("");
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // some editors begin a text with it
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  return text;
 }
-
-Vec3 vecOf(const proto::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 // The textures that the material uses, by whose numbers it knows them from now on.
 std::vector<Texture> ownTextures(Material& material, const Model& whole) {
@@ -102,6 +103,7 @@ class SceneFile {
   void checkBodies(const SceneModel& scene) const;
   void checkPlaces(const SceneModel& scene) const;
   std::uint64_t bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const;
+  void requireOfKind(const proto::Joint& in, const JointSpec& joint, const std::string& where) const;
   void addJoints(SceneModel& scene) const;
 
   const std::string path_;
@@ -125,8 +127,14 @@ class SceneFile {
 
 // Protobuf's errors read "(objects[0].material) stifness: Cannot find field." or "(objects[0].file): invalid value 3".
 void SceneFile::parse() {
+  if (text_[text_.find_first_not_of(" \t\r\n")] != '{')
+    fail("", "a scene file must be one object: {\"objects\": [..]}");
   const auto status = google::protobuf::util::JsonStringToMessage(text_, &scene_);
-  if (status.ok()) return;
+  if (status.ok()) {
+    const std::string flag = textForFlag(text_, *proto::Scene::descriptor());
+    if (!flag.empty()) fail(flag, flag + ": it must be true or false, without quotation marks");
+    return;
+  }
   std::string message(status.message());
   message = message.substr(0, message.find('\n'));
   const std::size_t open = message.find('('), close = message.find(')');
@@ -207,10 +215,9 @@ CadMeshing SceneFile::meshingOf(const proto::SceneObject& object, const std::str
   if (!readsCad(endingOf(object.file()))) fail(at, at + " is of CAD files: step, iges and brep");
   const proto::Meshing& in = object.meshing();
   if (in.deflection_m() != 0)
-    meshing.deflection_m =
-        decoder_.checked(in.deflection_m(), kLeastDeflection_m, kMostDeflection_m, at + ".deflectionM");
+    meshing.deflection_m = decoder_.checked(in.deflection_m(), kMinDeflection_m, kMaxDeflection_m, at + ".deflectionM");
   if (in.angle_rad() != 0)
-    meshing.angle_rad = decoder_.checked(in.angle_rad(), kLeastAngle_rad, kMostAngle_rad, at + ".angleRad");
+    meshing.angle_rad = decoder_.checked(in.angle_rad(), kMinAngle_rad, kMaxAngle_rad, at + ".angleRad");
   return meshing;
 }
 
@@ -298,9 +305,9 @@ Placement scaleOf(const proto::Transform& in) {
 Pose SceneFile::poseOf(const proto::Transform& in, const std::string& where) const {
   Pose pose;
   if (in.degrees() != 0) {
-    const Vec3 axis = vecOf(in.axis());
-    if (!(axis.norm() > 0)) fail(where + ".axis", where + ".axis must not be zero when degrees are given");
-    pose.rotation = Eigen::AngleAxisd(in.degrees() * M_PI / 180, axis.normalized()).toRotationMatrix();
+    const std::optional<Vec3> axis = unitOf(vecOf(in.axis()));
+    if (!axis) fail(where + ".axis", where + ".axis must not be zero when degrees are given");
+    pose.rotation = Eigen::AngleAxisd(in.degrees() * M_PI / 180, *axis).toRotationMatrix();
   }
   pose.origin = vecOf(in.translate());
   return pose;
@@ -346,6 +353,8 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
   placeModel(part, scaleOf(object.transform()));
   body.pose = poseOf(object.transform(), where + ".transform");
   body.spec = decoder_.body(object.body(), where + ".body");
+  if (body.spec.fixed && (body.spec.velocity_m_s != Vec3::Zero() || body.spec.spin_rad_s != Vec3::Zero()))
+    fail(where + ".body", where + ".body: a fixed body has no velocityMS and no spinRadS");
   body.snaps = snapsOf(object, scaleOf(object.transform()), where);
   body.fields = fieldsOf(object, scaleOf(object.transform()), where);
   body.model = std::move(part);
@@ -360,9 +369,8 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
 void SceneFile::checkBodies(const SceneModel& scene) const {
   const auto moving =
       std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return !b.spec.fixed; });
-  if (moving > static_cast<std::ptrdiff_t>(kMostBodies))
-    fail("objects",
-         fmt::format("{} bodies can move, and at most {} may: set fixed of the others", moving, kMostBodies));
+  if (moving > static_cast<std::ptrdiff_t>(kMaxBodies))
+    fail("objects", fmt::format("{} bodies can move, and at most {} may: set fixed of the others", moving, kMaxBodies));
   std::size_t body = 0, parts = 0;
   for (int i = 0; i < scene_.objects_size(); ++i) {
     if (!scene_.objects(i).has_body()) continue;
@@ -373,9 +381,9 @@ void SceneFile::checkBodies(const SceneModel& scene) const {
     } catch (const Error& error) {
       fail(where, where + ": " + error.what());
     }
-    if (parts > kMostBodies)
+    if (parts > kMaxBodies)
       fail(where,
-           fmt::format("with {} the bodies that move have {} parts, and at most {} may", where, parts, kMostBodies));
+           fmt::format("with {} the bodies that move have {} parts, and at most {} may", where, parts, kMaxBodies));
   }
 }
 
@@ -388,10 +396,10 @@ void SceneFile::checkPlaces(const SceneModel& scene) const {
     snap_points += pointsIn(body.snaps);
     field_points += pointsIn(body.fields);
   }
-  check(snapsIn(scene), kMostSnaps, "snaps");
-  check(snap_points, kMostSnapPoints, "points of snaps");
-  check(fieldsIn(scene), kMostFields, "fields");
-  check(field_points, kMostSnapPoints, "points of fields");
+  check(snapsIn(scene), kMaxSnaps, "snaps");
+  check(snap_points, kMaxSnapPoints, "points of snaps");
+  check(fieldsIn(scene), kMaxFields, "fields");
+  check(field_points, kMaxSnapPoints, "points of fields");
 }
 
 // Numbers from 1, as a scene's joints have them.
@@ -403,12 +411,29 @@ std::uint64_t SceneFile::bodyNamed(const std::string& name, const SceneModel& sc
   fail(where, where + ": there is no body '" + name + "' in this scene");
 }
 
+// A joint without a part of what its author wrote would move in another way.
+void SceneFile::requireOfKind(const proto::Joint& in, const JointSpec& joint, const std::string& where) const {
+  const auto require = [&](bool holds, const char* name, const char* what) {
+    if (!holds) fail(where + name, where + name + what);
+  };
+  const bool has_axis = joint.kind == JointKind::kHinge || joint.kind == JointKind::kSlider;
+  const bool is_distance = joint.kind == JointKind::kDistance;
+  require(has_axis || !in.has_axis(), ".axis", ": only a hinge or slider has an axis");
+  require(is_distance || !in.has_anchor_b(), ".anchorB", ": only a distance has an anchorB");
+  require(!is_distance || joint.along.high > 0, ".high", " of a distance must be greater than 0");
+  require(!is_distance || !in.has_low() || in.low() >= 0, ".low", " of a distance must not be below 0");
+  const bool is_bare = joint.along == JointForces{};
+  require(hasCoordinate(joint.kind) || is_bare, "",
+          ": a ball or fixed joint has no coordinate: leave out low, high, rest, spring, damping, friction and table");
+}
+
 void SceneFile::addJoints(SceneModel& scene) const {
-  if (scene_.joints_size() > static_cast<int>(kMostJoints)) fail("joints", "there are more than 1000 joints in it");
+  if (scene_.joints_size() > static_cast<int>(kMaxJoints)) fail("joints", "there are more than 1000 joints in it");
   for (int i = 0; i < scene_.joints_size(); ++i) {
     const proto::Joint& in = scene_.joints(i);
     const std::string where = pathOf("joints", i);
     JointSpec joint = decoder_.joint(in, where);
+    requireOfKind(in, joint, where);
     joint.body_a = bodyNamed(in.body_a(), scene, where + ".bodyA");
     if (!in.body_b().empty()) joint.body_b = bodyNamed(in.body_b(), scene, where + ".bodyB");
     if (joint.body_a == joint.body_b) fail(where, where + " joins a body to itself");
@@ -418,7 +443,8 @@ void SceneFile::addJoints(SceneModel& scene) const {
 
 SceneModel SceneFile::build() {
   checkFinite(scene_, "");
-  const double units = scene_.units() == 0 ? 1 : decoder_.checked(scene_.units(), 1e-9, 1e9, "units");
+  const bool untold = scene_.units() == 0 && !lines_.has("units");
+  const double units = untold ? 1 : decoder_.checked(scene_.units(), 1e-9, 1e9, "units");
   if (scene_.objects_size() > kMaxObjects) throw Error(path_ + ": there are more than 60000 objects in it");
   SceneModel scene;
   Model& whole = scene.model;
@@ -427,7 +453,7 @@ SceneModel SceneFile::build() {
   for (int i = 0; i < scene_.textures_size(); ++i) addTexture(whole, scene_.textures(i), pathOf("textures", i));
   if (scene_.objects_size() == 0) fail("objects", "there are no objects in it");
   if (scene_.has_gravity_m_s2())
-    scene.mechanics.gravity_m_s2 = decoder_.checked(scene_.gravity_m_s2(), kMostGravity_m_s2, "gravityMS2");
+    scene.mechanics.gravity_m_s2 = decoder_.checked(scene_.gravity_m_s2(), kMaxGravity_m_s2, "gravityMS2");
   std::size_t primitives = 0;
   for (int i = 0; i < scene_.objects_size(); ++i) {
     const proto::SceneObject& object = scene_.objects(i);

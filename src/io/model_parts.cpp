@@ -15,6 +15,7 @@
 #include "io/snap_messages.h"
 #include "io/value_messages.h"
 #include "scene/split_model.h"
+#include "surfaces/iso_surface.h"
 #include "surfaces/threshold.h"
 
 namespace hl {
@@ -25,7 +26,7 @@ constexpr std::size_t kMaxTextures = 10'000, kMaxMaterials = 0xffff, kMaxWarning
 constexpr std::size_t kMaxSceneObjects = 60'000;  // as of a scene file
 
 // As errors and warnings are: one line, of a length to be read.
-std::string oneLine(const std::string& text) {
+std::string firstLine(const std::string& text) {
   return validUtf8(text.substr(0, std::min(kLongestLine, text.find_first_of("\r\n"))));
 }
 
@@ -65,7 +66,7 @@ void PartSender::progress(double fraction) {
 
 void PartSender::failure(const std::string& why) {
   proto::ReadingPart part;
-  part.set_failure(oneLine(why));
+  part.set_failure(firstLine(why));
   send(part);
 }
 
@@ -106,7 +107,7 @@ void PartSender::sendSamples() {
 
 void PartSender::warn(const std::string& line) {
   proto::ReadingPart part;
-  part.set_warning(oneLine(line));
+  part.set_warning(firstLine(line));
   send(part);
 }
 
@@ -143,7 +144,7 @@ void PartSender::parts(const std::vector<ModelPart>& parts) {
     proto::ReadingPart message;
     for (std::size_t i = first; i < std::min(first + kPartsInMessage, parts.size()); ++i) {
       proto::ModelParts::Part& out = *message.mutable_parts()->add_parts();
-      out.set_name(oneLine(parts[i].name));
+      out.set_name(firstLine(parts[i].name));
       if (parts[i].colour) out.set_colour(packRgb(*parts[i].colour));
       out.set_vertices(parts[i].vertices);
       out.set_triangles(parts[i].triangles);
@@ -170,7 +171,7 @@ void PartSender::places(const SnapList& snaps, const FieldList& fields) {
 void PartSender::model(const Model& model) {
   proto::ReadingPart part;
   for (std::size_t i = 0; i < std::min(model.warnings.size(), kMaxWarnings); ++i) {
-    part.set_warning(oneLine(model.warnings[i]));
+    part.set_warning(firstLine(model.warnings[i]));
     send(part);
   }
   look(model.textures, model.materials);
@@ -199,7 +200,7 @@ void PartSender::surfaces(const std::vector<SceneSurface>& surfaces) {
   SurfaceWriter sources;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     proto::ReadingPart part;
-    part.mutable_surface()->set_name(oneLine(surfaces[i].name));
+    part.mutable_surface()->set_name(firstLine(surfaces[i].name));
     writeRepeat(surfaces[i].repeat, *part.mutable_surface()->mutable_repeat());
     send(part);
     look(surfaces[i].textures, {surfaces[i].material});
@@ -243,13 +244,13 @@ void PartCollector::addMaterial(const proto::Values& material) {
 
 void PartCollector::addWarning(const std::string& warning) {
   if (rest_.warnings.size() >= kMaxWarnings) throw Error("it has too many warnings");
-  rest_.warnings.push_back(oneLine(warning));
+  rest_.warnings.push_back(firstLine(warning));
 }
 
 void PartCollector::addSurface(const proto::ReadSurface& surface) {
   if (in_body_ || in_surface_) throw Error("it has a surface within another thing");
   if (scene_.surfaces.size() >= kMaxSceneObjects) throw Error("it has too many surfaces");
-  scene_.surfaces.push_back({oneLine(surface.name()), nullptr});
+  scene_.surfaces.push_back({firstLine(surface.name()), nullptr});
   scene_.surfaces.back().repeat = repeatIn(surface.repeat());
   in_surface_ = true;
 }
@@ -309,6 +310,7 @@ void PartCollector::takeCloud() {
 void PartCollector::takeVolume() {
   const VolumeHeader header = volume_->header();
   const std::shared_ptr<const Volume> volume = volume_->take();
+  requireValues(*volume);
   const IsoValue iso = header.iso ? *header.iso : IsoValue{thresholdOf(*volume), SolidSide::kAbove};
   scene_.surfaces.push_back({"", std::make_shared<const IsoSurface>(volume, header.frame, iso)});
 }
@@ -324,24 +326,24 @@ void PartCollector::addBody(const proto::RecordedBody& body) {
   if (in_body_) throw Error("it has a body without a mesh");
   scene_.bodies.push_back(sceneBodyOf(body));
   moving_bodies_ += scene_.bodies.back().spec.fixed ? 0 : 1;
-  if (moving_bodies_ > kMostBodies || scene_.bodies.size() > kMaxSceneObjects) throw Error("it has too many bodies");
+  if (moving_bodies_ > kMaxBodies || scene_.bodies.size() > kMaxSceneObjects) throw Error("it has too many bodies");
   in_body_ = true;
 }
 
 void PartCollector::addSnap(const proto::RecordedSnap& snap) {
-  if (snapsIn(scene_) >= kMostSnaps) throw Error("it has too many snaps");
+  if (snapsIn(scene_) >= kMaxSnaps) throw Error("it has too many snaps");
   (in_body_ ? scene_.bodies.back().snaps : scene_.snaps).push_back(snapOf(snap));
 }
 
 void PartCollector::addField(const proto::RecordedField& field) {
-  if (fieldsIn(scene_) >= kMostFields) throw Error("it has too many fields");
+  if (fieldsIn(scene_) >= kMaxFields) throw Error("it has too many fields");
   (in_body_ ? scene_.bodies.back().fields : scene_.fields).push_back(fieldOf(field));
 }
 
 void PartCollector::addParts(const proto::ModelParts& parts) {
   for (const proto::ModelParts::Part& in : parts.parts()) {
-    if (rest_.parts.size() >= kMostModelParts) throw Error("it has too many objects");
-    ModelPart part{oneLine(in.name()), {}, in.vertices(), in.triangles(), in.segments()};
+    if (rest_.parts.size() >= kMaxModelParts) throw Error("it has too many objects");
+    ModelPart part{firstLine(in.name()), {}, in.vertices(), in.triangles(), in.segments()};
     if (in.has_colour()) part.colour = unpackRgb(in.colour());
     rest_.parts.push_back(std::move(part));
   }
@@ -382,7 +384,7 @@ PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::siz
       if (progress && std::isfinite(part.progress())) progress(std::clamp(part.progress(), 0.0, 1.0));
       return State::kMore;
     case proto::ReadingPart::kFailure:
-      failure_ = oneLine(part.failure());
+      failure_ = firstLine(part.failure());
       return State::kFailed;
     case proto::ReadingPart::kWarning:
       addWarning(part.warning());

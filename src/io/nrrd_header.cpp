@@ -4,27 +4,21 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <string_view>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/text_words.h"
 
 namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostAxes = 16;
+constexpr std::size_t kMaxAxes = 16;
 
 [[noreturn]] void failNrrd(const std::string& why) { throw Error("is not a sound NRRD file: " + why); }
-
-std::string lowered(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::tolower(c); });
-  return result;
-}
 
 // Pieces of `text` between letters of `separators`, the empty ones left out.
 std::vector<std::string_view> piecesOf(std::string_view text, const char* separators) {
@@ -127,7 +121,7 @@ class NrrdFields {
     const auto fits = [&](std::size_t count) { return count == 0 || count == axes; };
     if (!typed_) failNrrd("it has no type");
     if (header_.encoding.empty()) failNrrd("it has no encoding");
-    if (axes == 0 || axes > kMostAxes || dimension_ != static_cast<double>(axes))
+    if (axes == 0 || axes > kMaxAxes || dimension_ != static_cast<double>(axes))
       failNrrd(fmt::format("it has dimension {:g} and {} sizes", dimension_, axes));
     if (!fits(header_.directions.size())) failNrrd("it has not one space direction for each axis");
     if (!fits(header_.spacings.size())) failNrrd("it has not one spacing for each axis");

@@ -11,7 +11,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostMissing = 8;  // names to tell
+constexpr std::size_t kMaxMissing = 8;  // names to tell
 
 // Each has its own place in the file.
 class FileStream final : public Assimp::IOStream {
@@ -64,7 +64,7 @@ bool OnlyFile::Exists(const char* file) const {
   std::replace_if(
       last.begin(), last.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
   constexpr std::size_t kLongest = 60;
-  if (!last.empty() && !last.starts_with(kStem) && missing_.size() < kMostMissing)
+  if (!last.empty() && !last.starts_with(kStem) && missing_.size() < kMaxMissing)
     missing_.insert(last.substr(0, kLongest));
   return false;
 }

@@ -86,10 +86,10 @@ bool PointRecord::hasColours() const {
 Rgb PointRecord::colourOf(const PointNumbers& numbers) const {
   if (fields[kPackedRgb]) {
     const double packed = numbers[kPackedRgb];
-    constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+    constexpr double kMax = std::numeric_limits<std::uint32_t>::max();
     if (fields[kPackedRgb]->form == ScalarKind::kFloat)
       return unpackRgb(std::bit_cast<std::uint32_t>(static_cast<float>(packed)));
-    return unpackRgb(packed > 0 ? static_cast<std::uint32_t>(std::min(packed, kMost)) : 0);
+    return unpackRgb(packed > 0 ? static_cast<std::uint32_t>(std::min(packed, kMax)) : 0);
   }
   const auto byte = [&](PointNumber n) { return colourByte(colourFactor(fields[n]->form) * numbers[n]); };
   return {byte(kRed), byte(kGreen), byte(kBlue)};

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/point_records.h"
 #include "io/text_words.h"
 

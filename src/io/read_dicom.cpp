@@ -65,16 +65,16 @@ Series largestIn(const fs::path& folder, VolumeSink& sink) {
   std::map<std::string, Series> all = seriesIn(folder, sink);
   const auto fewer = [](const auto& a, const auto& b) { return slicesIn(a.second) < slicesIn(b.second); };
   const auto largest = std::max_element(all.begin(), all.end(), fewer);
-  constexpr std::size_t kMostNamed = 10;
+  constexpr std::size_t kMaxNamed = 10;
   std::string others;
   std::size_t named = 0;
   for (const auto& [uid, series] : all) {
-    if (uid == largest->first || named == kMostNamed) continue;
+    if (uid == largest->first || named == kMaxNamed) continue;
     others += (named++ > 0 ? ", " : "") + inWords(series);
   }
   if (all.size() > 1)
     sink.warn(fmt::format("has {} series: {} with the most slices is read, not {}{}", all.size(),
-                          inWords(largest->second), others, all.size() > kMostNamed + 1 ? ", and others" : ""));
+                          inWords(largest->second), others, all.size() > kMaxNamed + 1 ? ", and others" : ""));
   return largest->second;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/read_heights.h"
 #include "io/text_words.h"
 

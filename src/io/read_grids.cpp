@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/copy_samples.h"
 #include "io/read_heights.h"
 #include "io/text_words.h"
@@ -38,8 +39,7 @@ struct EsriHeader {
 double readEsriHeader(TextWords& words, EsriHeader& header) {
   std::string_view word;
   while (words.next(word)) {
-    std::string key(word);
-    std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string key = lowered(word);
     if (key.empty() || std::isalpha(static_cast<unsigned char>(key[0])) == 0 || key == "nan")
       return words.numberOf(key, "a height");
     const double value = words.number(shown(key).c_str());
@@ -123,6 +123,9 @@ void readEsriGrid(const ModelFile& file, HeightSink& sink) {
   const GridSize size{sideOf(header.columns, "ncols"), sideOf(header.rows, "nrows"), SampleKind::kFloat32};
   const auto sound = [](double step) { return std::isfinite(step) && step > 0; };
   if (!sound(header.east) || !sound(header.south)) throw Error("says no cellsize that could be");
+  // A sample has a digit, and a blank before it. Of few samples the first that is none is told instead.
+  constexpr std::size_t kFew = std::size_t{1} << 20;
+  if (size.samples() > kFew && std::filesystem::file_size(file.path) / 2 < size.samples()) throw Error(kEndsEarly);
   sink.header({size, header.missing, uprightFrame(size, header.east, header.south, 1)});
   std::vector<float> row(size.columns);
   for (std::uint32_t j = 0; j < size.rows; ++j) {

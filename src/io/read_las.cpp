@@ -44,16 +44,16 @@ CloudLattice lasLattice(const std::vector<char>& header) {
     lattice.step[axis] = lasNumber<double>(header, kScale + at);
     lattice.origin[axis] = lasNumber<double>(header, kOffset + at);
   }
-  constexpr double kLeast_m = 1e-12, kMost_m = 1e6;
-  if (!lattice.origin.allFinite() || !(lattice.step.minCoeff() >= kLeast_m && lattice.step.maxCoeff() <= kMost_m))
+  constexpr double kMin_m = 1e-12, kMax_m = 1e6;
+  if (!lattice.origin.allFinite() || !(lattice.step.minCoeff() >= kMin_m && lattice.step.maxCoeff() <= kMax_m))
     throw Error("is no sound LAS file: its scale is not above 0, or its offset is no number");
   return lattice;
 }
 
 LasHeader readLasHeader(ByteFile& in) {
-  constexpr std::size_t kLeast = 227, kLong = 375, kCount64 = 247;
+  constexpr std::size_t kMin = 227, kLong = 375, kCount64 = 247;
   constexpr std::array<std::uint16_t, 11> kRecordBytes{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
-  std::vector<char> bytes(kLeast);
+  std::vector<char> bytes(kMin);
   in.read(bytes.data(), bytes.size());
   if (std::memcmp(bytes.data(), "LASF", 4) != 0) throw Error("is not a LAS file");
   const auto minor = lasNumber<std::uint8_t>(bytes, 25);
@@ -67,11 +67,11 @@ LasHeader readLasHeader(ByteFile& in) {
   if (header.format >= kRecordBytes.size() || header.record_bytes < kRecordBytes[header.format])
     throw Error(fmt::format("has points of format {} in {} bytes: formats 0 to 10 can be read", header.format,
                             header.record_bytes));
-  if (size < kLeast || header.offset_bytes < size) throw Error("is no sound LAS file: its header is too short");
+  if (size < kMin || header.offset_bytes < size) throw Error("is no sound LAS file: its header is too short");
   header.lattice = lasLattice(bytes);
   if (minor < 4 || size < kLong) return header;
   bytes.resize(kLong);
-  in.read(bytes.data() + kLeast, kLong - kLeast);
+  in.read(bytes.data() + kMin, kLong - kMin);
   header.count = lasNumber<std::uint64_t>(bytes, kCount64);
   return header;
 }
@@ -120,7 +120,7 @@ void inLasPieces(ByteFile& in, const LasHeader& header, const Each& each) {
   }
 }
 
-constexpr std::uint16_t kMostOfByte = 255;
+constexpr std::uint16_t kMaxOfByte = 255;
 
 // The largest number of a colour, or one above 255: then others do not matter. Colours have 16 bits, yet many programs
 // write 8 of them, and some write none at all: only the whole file tells. In one of 16 bits the first points do.
@@ -129,11 +129,11 @@ std::uint16_t mostOfColours(const std::string& path, const LasHeader& header, st
   in.skip(header.offset_bytes);
   std::uint16_t most = 0;
   inLasPieces(in, header, [&](const char* records, std::size_t count) {
-    for (std::size_t i = 0; i < count && most <= kMostOfByte; ++i) {
+    for (std::size_t i = 0; i < count && most <= kMaxOfByte; ++i) {
       const LasColour colour = lasColour(records + i * header.record_bytes, at);
       most = std::max(most, *std::max_element(colour.begin(), colour.end()));
     }
-    return most <= kMostOfByte;
+    return most <= kMaxOfByte;
   });
   return most;
 }
@@ -156,7 +156,7 @@ void readLas(const ModelFile& file, CloudSink& sink) {
   std::optional<std::size_t> colour_at = lasColourAt(header.format);
   const std::uint16_t most = colour_at ? mostOfColours(file.path, header, *colour_at) : std::uint16_t{0};
   if (most == 0) colour_at.reset();
-  const unsigned shift = most > kMostOfByte ? 8 : 0;
+  const unsigned shift = most > kMaxOfByte ? 8 : 0;
   std::vector<std::array<std::int32_t, 3>> steps;
   std::vector<Rgb> colours;
   std::uint64_t withheld = 0;

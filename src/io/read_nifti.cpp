@@ -162,10 +162,14 @@ Mat3 niftiAxesOf(const NiftiHeader& header, VolumeSink& sink) {
   return unit * Mat3(pixdimOf(header).asDiagonal());
 }
 
-// A slope of 0 means none; so do numbers that are none.
+// A slope of 0 means none, whatever the intercept, and so does NaN, which nibabel writes.
 ValueScale niftiScaleOf(const NiftiHeader& header) {
   const double scale = header.real(header.at().slope), offset = header.real(header.at().offset);
-  if (!std::isfinite(scale) || scale == 0 || !std::isfinite(offset)) return {};
+  if (scale == 0 || std::isnan(scale)) return {};
+  if (!std::isfinite(scale) || !std::isfinite(offset))
+    throw Error(
+        fmt::format("has values that are no numbers: scl_slope is {:g} and scl_inter {:g}; a scl_slope of 0 means none",
+                    scale, offset));
   return {scale, offset};
 }
 

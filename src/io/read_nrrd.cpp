@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "io/byte_file.h"
+#include "io/companion_file.h"
 #include "io/nrrd_header.h"
 #include "io/read_volumes.h"
 #include "io/text_words.h"
@@ -100,29 +101,38 @@ std::string nrrdDataPathOf(const ModelFile& file, const NrrdHeader& header) {
     throw Error(fmt::format("has its samples in '{}', and a file comes alone: save both as one .nrrd", shown(name)));
   if (name.starts_with("LIST") || name.find('%') != std::string::npos)
     throw Error("has its samples in several files: save all as one .nrrd");
-  const std::filesystem::path path = std::filesystem::path(file.path).parent_path() / name;
-  if (!std::filesystem::is_regular_file(path))
-    throw Error(fmt::format("has its samples in '{}', and there is no such file", shown(name)));
-  return path.string();
+  return companionPath(file.path, name);
+}
+
+// The byte skip of samples that are the last bytes of their file.
+constexpr double kNrrdAtTheEnd = -1;
+
+void checkSkips(const NrrdHeader& header) {
+  constexpr double kMaxSkipped = 1e15;
+  const auto counts = [](double skip) { return skip >= 0 && skip == std::floor(skip); };
+  if (header.byte_skip == kNrrdAtTheEnd && header.encoding != "raw")
+    throw Error("is not a sound NRRD file: its byte skip is -1, which is for raw samples only");
+  if (header.byte_skip != kNrrdAtTheEnd && !(counts(header.byte_skip) && header.byte_skip <= kMaxSkipped))
+    throw Error(fmt::format("is not a sound NRRD file: its byte skip is {:g}", header.byte_skip));
+  if (!counts(header.line_skip))
+    throw Error(fmt::format("is not a sound NRRD file: its line skip is {:g}", header.line_skip));
 }
 
 // The file with the samples, at the first of them.
 ByteFile nrrdDataOf(const ModelFile& file, const NrrdHeader& header, std::uint64_t place, std::uint64_t bytes) {
   const std::string path = nrrdDataPathOf(file, header);
   const bool packed = header.encoding == "gzip" || header.encoding == "gz";
-  ByteFile plain(path, ByteFile::Form::kPlain, header.data_file.empty() ? place : 0);
+  const std::uint64_t begin = header.data_file.empty() ? place : 0;
+  if (header.byte_skip == kNrrdAtTheEnd) {
+    const std::uint64_t all = std::filesystem::file_size(path);
+    if (all < begin || all - begin < bytes) throw Error(kEndsEarly);
+    return ByteFile(path, ByteFile::Form::kPlain, all - bytes);
+  }
+  ByteFile plain(path, ByteFile::Form::kPlain, begin);
   std::string line;
   for (double i = 0; i < header.line_skip; ++i) {
     if (!plain.line(line)) throw Error(kEndsEarly);
   }
-  constexpr double kAtTheEnd = -1, kMostSkipped = 1e15;
-  if (header.byte_skip == kAtTheEnd && header.encoding == "raw") {
-    const std::uint64_t all = std::filesystem::file_size(path);
-    if (all < bytes) throw Error(kEndsEarly);
-    return ByteFile(path, ByteFile::Form::kPlain, all - bytes);
-  }
-  if (!(header.byte_skip >= 0 && header.byte_skip <= kMostSkipped))
-    throw Error(fmt::format("is not a sound NRRD file: its byte skip is {:g}", header.byte_skip));
   ByteFile data = packed ? ByteFile(path, ByteFile::Form::kGzip, plain.place()) : std::move(plain);
   data.skip(static_cast<std::uint64_t>(header.byte_skip));
   return data;
@@ -173,6 +183,7 @@ void readNrrd(const ModelFile& file, VolumeSink& sink) {
   ByteFile in(file.path);
   const NrrdHeader header = readNrrdHeader(in);
   checkEncoding(header);
+  checkSkips(header);
   const auto side = nrrdSidesOf(header, sink);
   const GridFrame frame = centredFrame(side, nrrdAxesOf(header, sink));
   const std::uint64_t count = samplesIn(side), bytes = count * sizeOf(header.type);

@@ -44,28 +44,28 @@ std::uint64_t pcdNumber(const std::string& word) {
 
 void setEach(std::vector<PcdField>& fields, const std::string& key, const std::vector<std::string>& words) {
   if (words.size() != fields.size()) throw Error(std::string(kNoPcd) + key + " needs a word for each of FIELDS");
-  constexpr std::size_t kMostNumbers = 1 << 16;
+  constexpr std::size_t kMaxNumbers = 1 << 16;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (key == "TYPE") fields[i].type = words[i][0];
     if (key == "SIZE") fields[i].size = pcdNumber(words[i]);
     if (key == "COUNT") fields[i].count = pcdNumber(words[i]);
-    if (fields[i].count > kMostNumbers || fields[i].size > sizeof(double))
+    if (fields[i].count > kMaxNumbers || fields[i].size > sizeof(double))
       throw Error(std::string(kNoPcd) + "its SIZE or COUNT is too large");
   }
 }
 
 // Up to the line DATA.
 PcdHeader readPcdHeader(ByteFile& in) {
-  constexpr std::size_t kMostLines = 1000, kMostFields = 1000;
+  constexpr std::size_t kMaxLines = 1000, kMaxFields = 1000;
   PcdHeader header;
   std::uint64_t width = 0, height = 1;
   std::string line;
-  for (std::size_t lines = 0; lines < kMostLines && in.line(line); ++lines) {
+  for (std::size_t lines = 0; lines < kMaxLines && in.line(line); ++lines) {
     std::istringstream text(line);
     std::string key;
     std::vector<std::string> words;
     text >> key;
-    for (std::string word; words.size() < kMostFields && text >> word;) words.push_back(word);
+    for (std::string word; words.size() < kMaxFields && text >> word;) words.push_back(word);
     if (key.empty() || key[0] == '#') continue;
     if (words.empty()) throw Error(std::string(kNoPcd) + "a line of its header is '" + shown(line) + "'");
     if (key == "FIELDS" || key == "COLUMNS") {
@@ -77,8 +77,8 @@ PcdHeader readPcdHeader(ByteFile& in) {
     if (key == "HEIGHT") height = pcdNumber(words[0]);
     if (key == "POINTS") header.points = pcdNumber(words[0]);
     if (key != "DATA") continue;
-    constexpr std::uint64_t kMostSide = std::uint64_t{1} << 31;
-    if (header.points == 0 && width < kMostSide && height < kMostSide) header.points = width * height;
+    constexpr std::uint64_t kMaxSide = std::uint64_t{1} << 31;
+    if (header.points == 0 && width < kMaxSide && height < kMaxSide) header.points = width * height;
     header.data = words[0];
     return header;
   }
@@ -123,15 +123,15 @@ PointRecord pcdRecord(const PcdHeader& header, bool text) {
 
 // Unpacked, all numbers of a field follow each other.
 void copyPacked(ByteFile& in, const PcdHeader& header, PointRecord record, CloudSink& sink) {
-  constexpr std::uint64_t kMostBytes = 0xffffffff;
+  constexpr std::uint64_t kMaxBytes = 0xffffffff;
   std::array<std::uint32_t, 2> sizes{};
   in.read(sizes.data(), sizeof sizes);
   const auto [packed_bytes, bytes] = sizes;
-  if (record.bytes == 0 || header.points > kMostBytes / record.bytes || header.points * record.bytes != bytes)
+  if (record.bytes == 0 || header.points > kMaxBytes / record.bytes || header.points * record.bytes != bytes)
     throw Error(fmt::format("{}it has {} bytes for {} points", kNoPcd, bytes, header.points));
   in.expect(packed_bytes);
-  constexpr std::uint64_t kMostPacked = 128;  // LZF makes no more of a byte
-  if (bytes / kMostPacked > packed_bytes) throw Error(std::string(kNoPcd) + "it unpacks to more than it could");
+  constexpr std::uint64_t kMaxPacked = 128;  // LZF makes no more of a byte
+  if (bytes / kMaxPacked > packed_bytes) throw Error(std::string(kNoPcd) + "it unpacks to more than it could");
   std::vector<char> packed(packed_bytes), all(bytes);
   in.read(packed.data(), packed.size());
   unpackLzf(packed, all);

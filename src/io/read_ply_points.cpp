@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/point_records.h"
 #include "io/read_clouds.h"
 #include "io/text_words.h"
@@ -78,11 +79,11 @@ std::uint64_t plyCount(const std::string& word) {
 }
 
 PlyPoints readPlyHeader(ByteFile& in) {
-  constexpr std::size_t kMostLines = 10'000;
+  constexpr std::size_t kMaxLines = 10'000;
   PlyPoints ply;
   std::string line;
   if (!in.line(line) || trimmed(line) != "ply") throw Error("is not a PLY file");
-  for (std::size_t lines = 0; lines < kMostLines && in.line(line); ++lines) {
+  for (std::size_t lines = 0; lines < kMaxLines && in.line(line); ++lines) {
     std::istringstream text(line);
     std::string key, first, second;
     text >> key >> first >> second;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/open_file.h"
 #include "io/model_parts.h"
 #include "io/sha256.h"
 
@@ -21,16 +22,6 @@ namespace fs = std::filesystem;
 
 // Whatever changes in readings or in the messages that hold them changes this, so that older entries do not count.
 constexpr const char* kEntryFormat = "hl reading 2 ";
-
-struct OpenFile {
-  explicit OpenFile(int number) : descriptor(number) {}
-  ~OpenFile() {
-    if (descriptor >= 0) close(descriptor);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  int descriptor;
-};
 
 std::uint64_t sizeOf(int descriptor) {
   struct stat status {};
@@ -111,15 +102,15 @@ std::string ReadingCache::keyOf(int descriptor, const std::string& options) cons
 std::optional<SceneModel> ReadingCache::find(const std::string& key, const IsolationLimits& limits) const {
   if (folder_.empty() || key.empty()) return {};
   const OpenFile file(open(pathOf(key).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-  const std::uint64_t size = sizeOf(file.descriptor);
+  const std::uint64_t size = sizeOf(file.descriptor());
   Digest256 there{};
-  if (file.descriptor < 0 || size <= there.size()) return {};
+  if (file.descriptor() < 0 || size <= there.size()) return {};
   const std::uint64_t end = size - there.size();
-  if (!readAt(file.descriptor, end, there.data(), there.size())) return {};
-  if (digestOf(file.descriptor, end, key) != there) return {};
-  futimens(file.descriptor, nullptr);  // it is the newest now
+  if (!readAt(file.descriptor(), end, there.data(), there.size())) return {};
+  if (digestOf(file.descriptor(), end, key) != there) return {};
+  futimens(file.descriptor(), nullptr);  // it is the newest now
   try {
-    return sceneIn(file.descriptor, end, limits);
+    return sceneIn(file.descriptor(), end, limits);
   } catch (const Error&) {
     return {};
   }
@@ -131,10 +122,10 @@ void ReadingCache::keep(const std::string& key, const SceneModel& scene) const {
   fs::create_directories(folder_, failed);
   std::string beside = pathOf(key) + ".XXXXXX";
   const OpenFile file(mkostemp(beside.data(), O_CLOEXEC));
-  if (file.descriptor < 0) return;
+  if (file.descriptor() < 0) return;
   bool whole = false;
   try {
-    whole = writeEntry(file.descriptor, key, scene);
+    whole = writeEntry(file.descriptor(), key, scene);
   } catch (const Error&) {  // the disk is full
   }
   if (!whole || rename(beside.c_str(), pathOf(key).c_str()) != 0) unlink(beside.c_str());

@@ -18,7 +18,7 @@ std::string cacheFolder();
 class ReadingCache {
  public:
   /// Made when something is kept. An empty name: nothing is ever kept. `most_bytes`: of all entries; the oldest go.
-  explicit ReadingCache(std::string folder, std::uint64_t most_bytes = kMost_bytes)
+  explicit ReadingCache(std::string folder, std::uint64_t most_bytes = kMax_bytes)
       : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
   /// Of the file that is open as `descriptor`, whose place is not changed, and how it is read. Empty: it cannot be
@@ -31,7 +31,7 @@ class ReadingCache {
   void keep(const std::string& key, const SceneModel& scene) const;
 
  private:
-  static constexpr std::uint64_t kMost_bytes = std::uint64_t{4} << 30;
+  static constexpr std::uint64_t kMax_bytes = std::uint64_t{4} << 30;
 
   std::string pathOf(const std::string& key) const { return folder_ + "/" + key + ".reading"; }
   void makeRoom() const;

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/plain_file.h"
+#include "base/text.h"
 #include "builtin.h"
 #include "io/byte_file.h"
 #include "io/cad_file.h"
@@ -81,11 +82,6 @@ std::string unescaped(std::string_view text) {
   return plain;
 }
 
-std::string_view withoutSpaces(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view() : text.substr(first, last - first + 1);
-}
-
 using UseName = std::function<void(std::string_view)>;
 
 // The line, what follows each of its words, each word, and what stands between quotes.
@@ -93,7 +89,7 @@ void namesInLine(std::string_view line, const UseName& use) {
   if (line.find('.') == std::string_view::npos) return;
   for (std::size_t at = 0; at < line.size();) {
     const std::size_t end = std::min(line.find_first_of(" \t\r,;=[]{}()<>", at), line.size());
-    const std::string_view rest = withoutSpaces(line.substr(at));
+    const std::string_view rest = trimmed(line.substr(at));
     if (looksLikeAName(rest)) use(rest);
     const std::string_view word = line.substr(at, end - at);
     if (looksLikeAName(word)) use(word);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kSnap = "a snap";
 constexpr const char* kField = "a field";
-constexpr double kLeastOfPlace = 1e-30, kMostOfPlace = 1e30;
+constexpr double kMinOfPlace = 1e-30, kMaxOfPlace = 1e30;
 constexpr double kUnitVector = 1e-6;  // of a vector that was made a unit
 
 // What a SnapSpec is made of, without its name and points.
@@ -38,8 +38,8 @@ struct FieldParts {
 template <typename Message>
 std::vector<Vec3> pointsOf(const Message& in, const char* what, const std::optional<Vec3>& normal) {
   const auto count = static_cast<std::size_t>(in.points_size()) / 3;
-  checkRanges(what, {{"its number of points", static_cast<double>(count), 1,
-                      normal ? 1.0 : static_cast<double>(kMostCorners)}});
+  checkRanges(
+      what, {{"its number of points", static_cast<double>(count), 1, normal ? 1.0 : static_cast<double>(kMaxCorners)}});
   if (in.points_size() % 3 != 0) throw Error(std::string(what) + " makes no sense: its points have three numbers each");
   if (normal) checkRanges(what, {{"its normal's length", normal->norm(), 1 - kUnitVector, 1 + kUnitVector}});
   std::vector<Vec3> points;
@@ -67,8 +67,8 @@ void toProto(const SnapSpec& snap, proto::RecordedSnap& out) {
 SnapSpec snapOf(const proto::RecordedSnap& in) {
   SnapParts parts;
   readValues(in.values(), kSnap, parts);
-  checkRanges(kSnap, {{"capture_m", parts.capture_m, kLeastOfPlace, kMostOfPlace},
-                      {"release_N", parts.release_N, kLeastOfPlace, kMostOfPlace}});
+  checkRanges(kSnap, {{"capture_m", parts.capture_m, kMinOfPlace, kMaxOfPlace},
+                      {"release_N", parts.release_N, kMinOfPlace, kMaxOfPlace}});
   const std::optional<Vec3> normal = normalOf(parts);
   return {in.name(), pointsOf(in, kSnap, normal), normal, parts.capture_m, parts.release_N};
 }
@@ -87,10 +87,10 @@ FieldSpec fieldOf(const proto::RecordedField& in) {
   readValues(in.values(), kField, parts);
   const bool constant = parts.kind == FieldKind::kConstant;
   const double length = parts.direction.norm();
-  checkRanges(kField, {{"reach_m", parts.reach_m, kLeastOfPlace, kMostOfPlace},
-                       {"force_N", parts.force_N, 0, kMostOfPlace},
-                       {"stiffness_N_m", parts.stiffness_N_m, 0, kMostOfPlace},
-                       {"damping_Ns_m", parts.damping_Ns_m, 0, kMostOfPlace},
+  checkRanges(kField, {{"reach_m", parts.reach_m, kMinOfPlace, kMaxOfPlace},
+                       {"force_N", parts.force_N, 0, kMaxOfPlace},
+                       {"stiffness_N_m", parts.stiffness_N_m, 0, kMaxOfPlace},
+                       {"damping_Ns_m", parts.damping_Ns_m, 0, kMaxOfPlace},
                        {"its direction's length", length, constant ? 1 - kUnitVector : 0, 1 + kUnitVector}});
   const std::optional<Vec3> normal = normalOf(parts);
   return {in.name(),     parts.kind,          pointsOf(in, kField, normal), normal,         parts.reach_m,

@@ -54,16 +54,9 @@ double TextWords::numberOf(std::string_view word, const char* what) const {
   return value;
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr const char* kBlank = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
 std::string shown(std::string_view text) {
-  constexpr std::size_t kMost = 60;
-  std::string piece(text.substr(0, kMost));
+  constexpr std::size_t kMax = 60;
+  std::string piece(text.substr(0, kMax));
   for (char& c : piece) {
     if (c < ' ' || c > '~') c = '?';
   }

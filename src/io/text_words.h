@@ -31,8 +31,6 @@ class TextWords {
   std::size_t at_ = 0, filled_ = 0;
 };
 
-/// Without the blanks, tabs and carriage returns around it.
-std::string_view trimmed(std::string_view text);
 /// `text` from a file as an error may show it: a short piece, without what cannot be printed.
 std::string shown(std::string_view text);
 

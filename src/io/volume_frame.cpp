@@ -13,9 +13,9 @@ std::array<std::uint32_t, 3> volumeSides(const std::array<double, 3>& counts) {
   std::array<std::uint32_t, 3> side{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double count = counts[axis];
-    if (!(count >= 2 && count <= kMostVoxelSide && count == std::floor(count)))
+    if (!(count >= 2 && count <= kMaxVoxelSide && count == std::floor(count)))
       throw Error(fmt::format("has {:g} x {:g} x {:g} samples: a volume has 2 to {} along each axis", counts[0],
-                              counts[1], counts[2], kMostVoxelSide));
+                              counts[1], counts[2], kMaxVoxelSide));
     side[axis] = static_cast<std::uint32_t>(count);
   }
   return side;

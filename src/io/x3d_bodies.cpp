@@ -16,7 +16,7 @@ namespace hl {
 
 namespace {
 
-constexpr double kMostSlip = 1e3;
+constexpr double kMaxSlip = 1e3;
 
 bool isCollidable(const X3dNode& node) { return isX3d(node, {"CollidableShape", "CollidableOffset"}); }
 
@@ -83,7 +83,7 @@ void BodiesOfX3d::addSurface(const X3dNode& collection) {
   const X3dFields fields = fieldsOf(collection);
   BodySurface surface;
   surface.restitution = fields.number("bounce", 0, 0, 1);
-  const Vec2 friction = fields.pair("frictionCoefficients", Vec2::Constant(surface.dynamic_friction), 0, kMostSlip);
+  const Vec2 friction = fields.pair("frictionCoefficients", Vec2::Constant(surface.dynamic_friction), 0, kMaxSlip);
   surface.static_friction = surface.dynamic_friction = friction.x();
   if (friction.x() != friction.y()) fields.warn("the first of its frictionCoefficients holds in all directions");
   for (const char* other : {"slipFactors", "surfaceSpeed"}) {
@@ -133,9 +133,9 @@ Placement BodiesOfX3d::placementOfTransform(const X3dNode& node) {
 
 // Down to the shapes. An offset may name what has it inside: then it ends by its depth.
 void BodiesOfX3d::addPieces(const X3dNode& collidable, const Pose& outer, std::vector<ShapePiece>& pieces, int depth) {
-  constexpr std::size_t kMostVisits = 100'000;
+  constexpr std::size_t kMaxVisits = 100'000;
   constexpr int kDeepestOffset = 30;
-  if (++visited_ > kMostVisits) throw Error("its bodies have too many shapes");
+  if (++visited_ > kMaxVisits) throw Error("its bodies have too many shapes");
   const X3dNode* definition = document_.definitionOf(collidable);
   if (definition == nullptr || depth > kDeepestOffset) return warn(collidable, "is left out: there is none");
   taken_.insert(definition);
@@ -201,16 +201,16 @@ void BodiesOfX3d::warnOfWhatIsLeftOut(const X3dNode& node) {
 }
 
 BodySpec BodiesOfX3d::specOf(const X3dNode& node, bool enabled) {
-  constexpr double kLeast_kg = 1e-9, kMost_kg = 1e9, kFastest_m_s = 100, kFastest_rad_s = 1000;  // of scene files
+  constexpr double kMin_kg = 1e-9, kMax_kg = 1e9, kFastest_m_s = 100, kFastest_rad_s = 1000;  // of scene files
   const X3dFields fields = fieldsOf(node);
   BodySpec spec;
-  spec.mass_kg = std::max(kLeast_kg, fields.number("mass", 1, 0, kMost_kg));
+  spec.mass_kg = std::max(kMin_kg, fields.number("mass", 1, 0, kMax_kg));
   spec.velocity_m_s = fields.vec("linearVelocity", Vec3::Zero(), kFastest_m_s);
   spec.spin_rad_s = fields.vec("angularVelocity", Vec3::Zero(), kFastest_rad_s);
   spec.surface = surfaceOf(node.second);
   spec.fixed = fields.flag("fixed", false);
   if (spec.fixed) return spec;
-  const bool weightless = *spec.mass_kg <= kLeast_kg;
+  const bool weightless = *spec.mass_kg <= kMin_kg;
   spec.fixed = weightless || !(enabled && fields.flag("enabled", true));
   if (spec.fixed) fields.warn(std::string("stays where it is: it ") + (weightless ? "has no mass" : "is not enabled"));
   return spec;
@@ -238,7 +238,7 @@ void BodiesOfX3d::setParts(const X3dNode& node, std::size_t shapes, SceneBody& b
   if (body.spec.fixed) return;
   try {
     const std::size_t parts = partsIn(body.model, body.spec);
-    if (moving_parts_ + parts > kMostBodies) throw Error("all bodies have too many parts");
+    if (moving_parts_ + parts > kMaxBodies) throw Error("all bodies have too many parts");
     moving_parts_ += parts - 1;
   } catch (const Error& error) {
     body.spec.shape = BodyShape::kHull;
@@ -265,7 +265,7 @@ void BodiesOfX3d::addBody(const X3dNode& node, bool enabled) {
   body.name = labelOfX3d(node);
   body.pose = placeOf(node, "position", "orientation");
   body.spec = specOf(node, enabled);
-  if (!body.spec.fixed && moving_parts_ >= kMostBodies) {
+  if (!body.spec.fixed && moving_parts_ >= kMaxBodies) {
     ++too_many_;
     return;
   }
@@ -282,9 +282,9 @@ void BodiesOfX3d::addBody(const X3dNode& node, bool enabled) {
 }
 
 void BodiesOfX3d::addCollection(const X3dNode& collection) {
-  constexpr double kMostGravity = 1000;
+  constexpr double kMaxGravity = 1000;
   const Vec3 kDefault(0, -9.8, 0);  // X3D's
-  const Vec3 gravity = fieldsOf(collection).vec("gravity", kDefault, kMostGravity);
+  const Vec3 gravity = fieldsOf(collection).vec("gravity", kDefault, kMaxGravity);
   if (!has_gravity_) scene_.mechanics.gravity_m_s2 = gravity;
   if (has_gravity_ && gravity != scene_.mechanics.gravity_m_s2)
     warn(collection, "its gravity is left out: there is one for all");
@@ -362,7 +362,7 @@ SceneModel BodiesOfX3d::build() {
   addStanding(document_.tree(), true);
   for (const X3dNode* route : document_.all("ROUTE")) takeWhatFollows(*route);
   if (too_many_ > 0)
-    warnings_.push_back(std::to_string(too_many_) + " bodies are left out: at most " + std::to_string(kMostBodies) +
+    warnings_.push_back(std::to_string(too_many_) + " bodies are left out: at most " + std::to_string(kMaxBodies) +
                         " can move");
   scene_.model = read_(document_.textWithout(taken_));
   warnings_.insert(warnings_.end(), scene_.model.warnings.begin(), scene_.model.warnings.end());

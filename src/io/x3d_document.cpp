@@ -6,6 +6,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "base/direction.h"
 #include "base/error.h"
 
 namespace hl {
@@ -65,7 +66,7 @@ void checkDepth(const std::string& text) {
 
 X3dTree treeOf(const std::string& text) {
   namespace xml = boost::property_tree::xml_parser;
-  if (text.size() > kMostX3dBytes) throw Error("is larger than 256 MB, which is too much for X3D with bodies");
+  if (text.size() > kMaxX3dBytes) throw Error("is larger than 256 MB, which is too much for X3D with bodies");
   checkDepth(text);
   X3dTree tree;
   std::istringstream in(text);
@@ -234,12 +235,11 @@ Vec3 X3dFields::vec(const char* name, const Vec3& otherwise, double most) const 
 }
 
 Mat3 X3dFields::rotation(const char* name) const {
-  constexpr double kMost = 1e6;
-  const std::vector<double> list = numbers(name, 4, -kMost, kMost);
+  constexpr double kMax = 1e6;
+  const std::vector<double> list = numbers(name, 4, -kMax, kMax);
   if (list.empty()) return Mat3::Identity();
-  const Vec3 axis(list[0], list[1], list[2]);
-  if (!(axis.norm() > 0)) return Mat3::Identity();
-  return Eigen::AngleAxisd(list[3], axis.normalized()).toRotationMatrix();
+  const std::optional<Vec3> axis = unitOf({list[0], list[1], list[2]});
+  return axis ? Eigen::AngleAxisd(list[3], *axis).toRotationMatrix() : Mat3(Mat3::Identity());
 }
 
 }  // namespace hl

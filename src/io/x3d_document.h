@@ -22,8 +22,8 @@ using X3dTree = boost::property_tree::ptree;
 using X3dNode = X3dTree::value_type;
 using X3dNodes = std::set<const X3dNode*>;
 
-inline constexpr std::size_t kMostX3dBytes = std::size_t{256} << 20;  ///< of a file; its tree takes several times that
-inline constexpr double kFarthestX3d_m = 1e6;                         ///< of places that are read, along each axis
+inline constexpr std::size_t kMaxX3dBytes = std::size_t{256} << 20;  ///< of a file; its tree takes several times that
+inline constexpr double kFarthestX3d_m = 1e6;                        ///< of places that are read, along each axis
 
 /// A field as it is written, or nothing.
 std::optional<std::string> x3dField(const X3dNode& node, const std::string& name);

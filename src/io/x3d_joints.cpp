@@ -57,11 +57,11 @@ bool JointsOfX3d::setBodies(const X3dNode& node, JointSpec& joint) {
 
 // A hinge of X3D knows no more than half a turn to each side: from there on it has no limit.
 void JointsOfX3d::setLimits(const X3dNode& node, JointSpec& joint) {
-  constexpr double kHalfTurn = std::numbers::pi - 1e-3, kMost = 1e9;
+  constexpr double kHalfTurn = std::numbers::pi - 1e-3, kMax = 1e9;
   const bool hinge = joint.kind == JointKind::kHinge;
   const X3dFields fields(node, warnings_);
-  const double low = fields.number(hinge ? "minAngle" : "minSeparation", hinge ? -kMost : 0, -kMost, kMost);
-  const double high = fields.number(hinge ? "maxAngle" : "maxSeparation", hinge ? kMost : 1, -kMost, kMost);
+  const double low = fields.number(hinge ? "minAngle" : "minSeparation", hinge ? -kMax : 0, -kMax, kMax);
+  const double high = fields.number(hinge ? "maxAngle" : "maxSeparation", hinge ? kMax : 1, -kMax, kMax);
   if (fields.number("stopBounce", 0, 0, 1) > 0) fields.warn("stopBounce is left out");
   if (low > high) return fields.warn("has no limits: the lower one is above the upper one");
   if (!hinge || low > -kHalfTurn) joint.along.low = low;
@@ -73,7 +73,7 @@ void JointsOfX3d::add(const X3dNode& node) {
   if (isX3d(node, {"UniversalJoint", "DoubleAxisHingeJoint", "MotorJoint"}))
     return fields.warn("is not supported, and left out");
   if (!isX3d(node, {"BallJoint", "SingleAxisHingeJoint", "SliderJoint"}) || x3dField(node, "USE")) return;
-  if (scene_.mechanics.joints.size() >= kMostJoints) return fields.warn("is left out: there are 1000 joints");
+  if (scene_.mechanics.joints.size() >= kMaxJoints) return fields.warn("is left out: there are 1000 joints");
   JointSpec joint;
   joint.name = labelOfX3d(node);
   if (node.first == "SingleAxisHingeJoint") joint.kind = JointKind::kHinge;

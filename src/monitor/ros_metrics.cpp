@@ -43,6 +43,8 @@ void writeRosMetrics(MetricsText& out, const RosCounts& counts) {
     out.sample(static_cast<double>(counts.verdicts[i]), {{"reason", kReasonNames[i]}});
   out.single("hl_ros_ends_total", kCounter, "Times that a hand was let go, as no other command came in time",
              static_cast<double>(counts.ends));
+  out.single("hl_ros_starts_total", kCounter, "Times that hl-ros was started again, after it had ended",
+             static_cast<double>(counts.starts));
   if (counts.teleop) writeTeleop(out, *counts.teleop);
 }
 

@@ -30,7 +30,7 @@ void writePeers(MetricsText& out, const ShareView& view) {
 }
 
 std::string endOf(const ShareView& view) {
-  return view.ended.empty() ? "" : "the world '" + view.world + "' is shared no more: " + view.ended;
+  return view.ended.empty() ? "" : "the world '" + view.world + "' is not shared: " + view.ended;
 }
 
 }  // namespace
@@ -45,6 +45,7 @@ void writeShareMetrics(MetricsText& out, const ShareView& view) {
     out.single(name, kGauge, help, static_cast<double>(count));
   };
   out.single("hl_share_running", kGauge, "1 while the server shares its world", view.ended.empty() ? 1 : 0);
+  total("hl_share_starts_total", "Times that hl-share was started again, after it had ended", view.starts);
   now("hl_share_servers", "Other servers that are there", view.peers.size());
   now("hl_share_hands", "Hands of other servers", view.hands.size());
   now("hl_share_objects", "Objects of all servers", counts.items);

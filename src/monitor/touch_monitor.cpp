@@ -158,14 +158,14 @@ class TouchMonitor {
                [](auto& l) { return l.totals.preempted; });
     writeDuty(out);
     loopFamily(out, "hl_loop_late_max_seconds", kGauge, "Worst wake-up after its deadline since the start",
-               [](auto& l) { return 1e-9 * static_cast<double>(l.totals.late_max_ns); });
+               [](auto& l) { return seconds(l.totals.late_max_ns); });
     loopFamily(out, "hl_loop_work_max_seconds", kGauge, "Longest work of a step in the last second",
-               [](auto& l) { return 1e-9 * static_cast<double>(l.second.max_ns); });
+               [](auto& l) { return seconds(l.second.max_ns); });
     out.family("hl_loop_work_seconds", kGauge, "Work of one step in the last second");
     ofEach(out, [&](const Device& device) {
       for (const Loop& loop : loopsOf(device)) {
-        out.sample(1e-9 * static_cast<double>(loop.second.p50_ns), {{"loop", loop.name}, {"quantile", "0.5"}});
-        out.sample(1e-9 * static_cast<double>(loop.second.p999_ns), {{"loop", loop.name}, {"quantile", "0.999"}});
+        out.sample(seconds(loop.second.p50_ns), {{"loop", loop.name}, {"quantile", "0.5"}});
+        out.sample(seconds(loop.second.p999_ns), {{"loop", loop.name}, {"quantile", "0.999"}});
       }
     });
   }

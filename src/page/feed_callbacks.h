@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "record/open_file.h"
+#include "record/private_file.h"
 
 namespace hl {
 

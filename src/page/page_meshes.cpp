@@ -38,9 +38,9 @@ std::uint64_t messageBytes(const Model& model, const Look& look) {
 
 // Of a surface that is no mesh a page draws so many triangles, or a few more: it is felt exactly, and drawn as finely
 // as a screen shows.
-constexpr std::size_t kMostDrawn = 1'000'000;
-// One that changes at once, again and again, must be drawn soon.
-constexpr std::size_t kMostDrawnOften = 100'000;
+constexpr std::size_t kMaxDrawn = 1'000'000;
+// One that changes at once, perhaps again and again, must be drawn soon.
+constexpr std::size_t kMaxDrawnSoon = 100'000;
 
 struct Drawn {
   Model model;
@@ -59,10 +59,15 @@ Drawn drawnOf(const Shape& shape, std::size_t most) {
   return result;
 }
 
+// In full.
+std::uint64_t drawnTriangles(const Shape& shape) {
+  constexpr std::uint64_t kOfPoint = 4;
+  return shape.elements() * (shape.source->kind() == PrimitiveKind::kPoint ? kOfPoint : 1);
+}
+
 std::uint64_t messageBytes(const Shape& shape, const Look& look, std::size_t most_drawn) {
   if (!shape.source) return messageBytes(shape.model, look);
-  constexpr std::uint64_t kOfPoint = 4;  // triangles
-  const std::uint64_t drawn = shape.elements() * (shape.source->kind() == PrimitiveKind::kPoint ? kOfPoint : 1);
+  const std::uint64_t drawn = drawnTriangles(shape);
   const std::uint64_t each = kDrawnTriangle_bytes + (look.empty() ? 0 : kDrawnTexcoords_bytes) +
                              (shape.source->hasColours() ? kDrawnColours_bytes : 0);
   return kSmallest + each * std::min<std::uint64_t>(drawn, most_drawn) + texelsOf(look);
@@ -97,10 +102,15 @@ std::string emptyMessage(std::uint32_t number) {
 }  // namespace
 
 PageMeshes::Made PageMeshes::make(std::uint32_t number, const Mesh& mesh) const {
+  if (mesh.replaced && !mesh.refined) return make(number, mesh, kMaxDrawnSoon);
+  Made made = make(number, mesh, kMaxDrawn);
+  return mesh.refined && !made.lacking.empty() ? make(number, mesh, kMaxDrawnSoon) : made;
+}
+
+PageMeshes::Made PageMeshes::make(std::uint32_t number, const Mesh& mesh, std::size_t most_drawn) const {
   try {
     const Shape& shape = *mesh.shape;
     const Look& look = mesh.look;
-    const std::size_t most_drawn = mesh.often_replaced ? kMostDrawnOften : kMostDrawn;
     const std::uint64_t bytes = messageBytes(shape, look, most_drawn);
     if (bytes > most_bytes_)
       throw Error("it would take " + std::to_string(bytes / 1'000'000) + " MB, and a page is sent " +
@@ -124,20 +134,30 @@ std::string PageMeshes::lacking() const {
   return {};
 }
 
-std::uint32_t PageMeshes::numberOf(const Instance& instance) {
+// What is drawn coarsely and has been the same for a while is another mesh from now on.
+std::uint32_t PageMeshes::numberOf(const Instance& instance, std::int64_t now_ns) {
   Look look = lookOf(*instance.shape, *instance.surfaces);
   Identity identity{instance.shape->geometry, {}};
   for (const auto& texture : look) identity.second.push_back(texture.get());
-  if (const auto known = numbers_.find(identity); known != numbers_.end()) return known->second;
-  meshes_[last_number_ + 1] = {instance.shape, std::move(look), instance.replaced_in > 0, nullptr};
-  numbers_.emplace(std::move(identity), last_number_ + 1);  // last: a number has its mesh, whatever fails
+  const auto known = numbers_.find(identity);
+  const bool is_known = known != numbers_.end();
+  if (is_known && !meshes_.at(known->second).dueAt(now_ns)) return known->second;
+  const Shape& shape = *instance.shape;
+  const bool replaced = instance.replaced_in > 0 && shape.source && drawnTriangles(shape) > kMaxDrawnSoon;
+  meshes_[last_number_ + 1] = {instance.shape, std::move(look), replaced, is_known, now_ns};
+  numbers_[std::move(identity)] = last_number_ + 1;  // last: a number has its mesh, whatever fails
   return ++last_number_;
 }
 
-std::vector<std::uint32_t> PageMeshes::numbersOf(const Snapshot& snapshot) {
+bool PageMeshes::refines(std::int64_t now_ns) const {
+  return std::any_of(numbers_.begin(), numbers_.end(),
+                     [&](const auto& entry) { return meshes_.at(entry.second).dueAt(now_ns); });
+}
+
+std::vector<std::uint32_t> PageMeshes::numbersOf(const Snapshot& snapshot, std::int64_t now_ns) {
   std::vector<std::uint32_t> numbers;
   numbers.reserve(snapshot.instances.size());
-  for (const Instance& instance : snapshot.instances) numbers.push_back(numberOf(instance));
+  for (const Instance& instance : snapshot.instances) numbers.push_back(numberOf(instance, now_ns));
   return numbers;
 }
 

@@ -31,8 +31,13 @@ class PageMeshes {
   explicit PageMeshes(MemoryBudget memory = {}, std::uint64_t most_bytes = kMaxMessage_bytes)
       : memory_(std::move(memory)), most_bytes_(most_bytes) {}
 
+  /// A surface that replaced another one is drawn coarsely at first, and in full when it has been the same for so long.
+  static constexpr std::int64_t kStill_ns = 1'000'000'000;
+
   /// The number of the mesh of each instance; new ones start to be made ready.
-  std::vector<std::uint32_t> numbersOf(const Snapshot& snapshot);
+  std::vector<std::uint32_t> numbersOf(const Snapshot& snapshot, std::int64_t now_ns);
+  /// Whether numbersOf() would have another number for one of them: it is to be drawn in full now.
+  bool refines(std::int64_t now_ns) const;
   /// Whether all the meshes have their messages; never waits for one.
   bool ready();
   /// Of one that is ready.
@@ -48,9 +53,11 @@ class PageMeshes {
   struct Mesh {
     std::shared_ptr<const Shape> shape;  // until there is a message
     Look look;
-    bool often_replaced = false;
-    PageMessage message;
+    bool replaced = false, refined = false;
+    std::int64_t since_ns = 0;
+    PageMessage message{};
     std::string lacking{};
+    bool dueAt(std::int64_t now_ns) const { return replaced && !refined && now_ns - since_ns >= kStill_ns; }
   };
   struct Made {
     std::uint32_t number = 0;
@@ -58,8 +65,9 @@ class PageMeshes {
     std::string lacking;
   };
 
-  std::uint32_t numberOf(const Instance& instance);
+  std::uint32_t numberOf(const Instance& instance, std::int64_t now_ns);
   Made make(std::uint32_t number, const Mesh& mesh) const;
+  Made make(std::uint32_t number, const Mesh& mesh, std::size_t most_drawn) const;
   void takeMade();
 
   const MemoryBudget memory_;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/utf8.h"
-#include "page/told_materials.h"
+#include "page/layout_materials.h"
 #include "page/wire_bytes.h"
 #include "scene/iso_shape.h"
 #include "session/state_messages.h"
@@ -51,6 +51,19 @@ bool PageScene::MeshPlacement::operator==(const MeshPlacement& other) const {
   return names(*this) == names(other) && same_label && (surfaces == other.surfaces || *surfaces == *other.surfaces);
 }
 
+void PageScene::addPlacement(const MeshPlacement& place, const Instance& instance, proto::SceneLayout& layout) {
+  proto::PlacedMesh& placed = *layout.add_placed();
+  placed.set_mesh(place.mesh);
+  placed.set_session(place.session);
+  placed.set_object(place.object);
+  placed.set_name(place.name);
+  const RigidBody* const body = place.session == 0 ? instance.body.get() : nullptr;
+  if (place.label) placed.set_label(place.label->name);
+  if (!place.label && body != nullptr) placed.set_label(validUtf8(body->name));  // of its file
+  if (place.label && place.label->colour) placed.set_colour(place.label->colour->data(), place.label->colour->size());
+  addMaterials(*place.surfaces, placed);
+}
+
 void PageScene::follow(const std::shared_ptr<const Snapshot>& newest, const PageScale& scale, std::int64_t now_ns) {
   if (presence_.use_count() == 1) {
     shown_ = waiting_ = nullptr;
@@ -58,32 +71,32 @@ void PageScene::follow(const std::shared_ptr<const Snapshot>& newest, const Page
     meshes_.keep({});
     return;
   }
-  takeNewest(newest);
+  takeNewest(newest, now_ns);
   if (shown_ && outdated(scale, now_ns)) layOut(scale, now_ns);
 }
 
 // A snapshot that waits for its meshes is shown before newer ones are looked at: else a scene with a new mesh in every
 // frame would never be shown.
-void PageScene::takeNewest(const std::shared_ptr<const Snapshot>& newest) {
-  if (!waiting_ && newest != shown_) {
+void PageScene::takeNewest(const std::shared_ptr<const Snapshot>& newest, std::int64_t now_ns) {
+  if (!waiting_ && (newest != shown_ || meshes_.refines(now_ns))) {
     waiting_ = newest;
-    waiting_places_.clear();
-    const std::vector<std::uint32_t> meshes = meshes_.numbersOf(*newest);
+    waiting_placements_.clear();
+    const std::vector<std::uint32_t> meshes = meshes_.numbersOf(*newest, now_ns);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       const Instance& instance = newest->instances[i];
-      waiting_places_.push_back({instance.key, meshes[i], instance.session, instance.object, instance.name,
-                                 instance.surfaces, instance.label});
+      waiting_placements_.push_back({instance.key, meshes[i], instance.session, instance.object, instance.name,
+                                     instance.surfaces, instance.label});
     }
   }
   if (!waiting_ || !meshes_.ready()) return;
   shown_ = std::exchange(waiting_, nullptr);
-  shown_places_ = std::move(waiting_places_);
+  shown_placements_ = std::move(waiting_placements_);
 }
 
 bool PageScene::outdated(const PageScale& scale, std::int64_t now_ns) {
-  if (!layout_ || layout_->scale != scale || layout_->name != shown_->name || layout_->places != shown_places_)
+  if (!layout_ || layout_->scale != scale || layout_->name != shown_->name || layout_->placements != shown_placements_)
     return true;
-  return now_ns - layout_->made_ns >= kSettle_ns && (settledElsewhere(now_ns) || toldOtherwise());
+  return now_ns - layout_->made_ns >= kSettle_ns && (settledElsewhere(now_ns) || hasOtherContents());
 }
 
 bool PageScene::settledElsewhere(std::int64_t now_ns) const {
@@ -95,16 +108,16 @@ bool PageScene::settledElsewhere(std::int64_t now_ns) const {
   return false;
 }
 
-bool PageScene::toldOtherwise() {
-  if (layout_->told_of == shown_->identity) return false;
-  layout_->told_of = shown_->identity;
-  return !(layout_->bodies == ToldBodies::of(*shown_)) || !(layout_->felt == ToldPlaces::of(*shown_));
+bool PageScene::hasOtherContents() {
+  if (layout_->compared_with == shown_->identity) return false;
+  layout_->compared_with = shown_->identity;
+  return !(layout_->bodies == LayoutBodies::of(*shown_)) || !(layout_->places == LayoutPlaces::of(*shown_));
 }
 
 void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
   proto::ServerMessage message;
   proto::SceneLayout& out = *message.mutable_layout();
-  layout_ = Layout{++last_layout_, shown_->name, scale, shown_places_, {}, {}, now_ns};
+  layout_ = Layout{++last_layout_, shown_->name, scale, shown_placements_, {}, {}, now_ns};
   out.set_number(layout_->number);
   out.set_name(validUtf8(layout_->name));
   out.set_proxy_radius(scale.radius_W);
@@ -113,25 +126,18 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
     toProto(bounds.min, *out.mutable_bounds_min());
     toProto(bounds.max, *out.mutable_bounds_max());
   }
-  for (std::size_t i = 0; i < shown_places_.size(); ++i) {
-    const MeshPlacement& place = shown_places_[i];
+  for (std::size_t i = 0; i < shown_placements_.size(); ++i) {
+    const MeshPlacement& place = shown_placements_[i];
     layout_->meshes.insert(place.mesh);
     layout_->poses.push_back(shown_->instances[i].shownAt(now_ns));
     appendPose(*out.mutable_poses(), layout_->poses.back());
-    proto::PlacedMesh& placed = *out.add_placed();
-    placed.set_mesh(place.mesh);
-    placed.set_session(place.session);
-    placed.set_object(place.object);
-    placed.set_name(place.name);
-    if (place.label) placed.set_label(place.label->name);
-    if (place.label && place.label->colour) placed.set_colour(place.label->colour->data(), place.label->colour->size());
-    addMaterials(*place.surfaces, placed);
+    addPlacement(place, shown_->instances[i], out);
   }
-  layout_->bodies = ToldBodies::of(*shown_);
-  layout_->felt = ToldPlaces::of(*shown_);
-  layout_->told_of = shown_->identity;
+  layout_->bodies = LayoutBodies::of(*shown_);
+  layout_->places = LayoutPlaces::of(*shown_);
+  layout_->compared_with = shown_->identity;
   addBodies(layout_->bodies, *shown_, out);
-  addPlaces(layout_->felt, out);
+  addPlaces(layout_->places, out);
   addVolumes(*shown_, out);
   layout_->message = std::make_shared<const std::string>(message.SerializeAsString());
   if (!waiting_) meshes_.keep(layout_->meshes);
@@ -164,11 +170,11 @@ PageMessage PageScene::next(PageMemory& page) const {
 }
 
 // The index in the layout of the object with this key; absent: it is not in the layout.
-std::optional<std::uint32_t> PageScene::placeOf(std::uint64_t key) const {
-  const auto at = std::lower_bound(layout_->places.begin(), layout_->places.end(), key,
+std::optional<std::uint32_t> PageScene::indexOf(std::uint64_t key) const {
+  const auto at = std::lower_bound(layout_->placements.begin(), layout_->placements.end(), key,
                                    [](const MeshPlacement& place, std::uint64_t k) { return place.key < k; });
-  if (at == layout_->places.end() || at->key != key) return std::nullopt;
-  return static_cast<std::uint32_t>(at - layout_->places.begin());
+  if (at == layout_->placements.end() || at->key != key) return std::nullopt;
+  return static_cast<std::uint32_t>(at - layout_->placements.begin());
 }
 
 void PageScene::describe(proto::State& state, std::span<const ObjectName> touched, const HoldingSnap& snap,
@@ -182,12 +188,12 @@ void PageScene::describe(proto::State& state, std::span<const ObjectName> touche
     appendPose(*state.mutable_moved_poses(), pose);
   }
   for (const ObjectName& object : touched) {
-    const auto index = placeOf(object.key);
+    const auto index = indexOf(object.key);
     if (index && std::find(state.touched().begin(), state.touched().end(), *index) == state.touched().end())
       state.add_touched(*index);
   }
-  if (const auto holder = placeOf(snap.object.key)) {
-    if (const auto held = layout_->felt.indexOf({*holder, snap.number})) state.set_snap(*held);
+  if (const auto holder = indexOf(snap.object.key)) {
+    if (const auto held = layout_->places.indexOf({*holder, snap.number})) state.set_snap(*held);
   }
 }
 

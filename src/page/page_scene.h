@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "page/layout_bodies.h"
+#include "page/layout_places.h"
 #include "page/page_meshes.h"
-#include "page/told_bodies.h"
-#include "page/told_places.h"
 #include "scene/snapshot.h"
 #include "touch/proxy_loop.h"
 
@@ -69,27 +69,29 @@ class PageScene {
     std::uint32_t number = 0;
     std::string name;
     PageScale scale;
-    std::vector<MeshPlacement> places;  // of the instances of the snapshot, one by one
+    std::vector<MeshPlacement> placements;  // of the instances of the snapshot, one by one
     std::vector<Pose> poses;
     std::set<std::uint32_t> meshes;
     std::int64_t made_ns = 0;
-    ToldBodies bodies{};
-    ToldPlaces felt{};
-    std::uint64_t told_of = 0;  // identity of the last snapshot whose bodies, snaps and fields are these
+    LayoutBodies bodies{};
+    LayoutPlaces places{};
+    std::uint64_t compared_with =
+        0;  // identity of the last snapshot whose bodies, snaps and fields were compared with these
     PageMessage message{};
   };
 
-  void takeNewest(const std::shared_ptr<const Snapshot>& newest);
+  void takeNewest(const std::shared_ptr<const Snapshot>& newest, std::int64_t now_ns);
   bool outdated(const PageScale& scale, std::int64_t now_ns);
+  static void addPlacement(const MeshPlacement& place, const Instance& instance, proto::SceneLayout& layout);
   bool settledElsewhere(std::int64_t now_ns) const;
-  bool toldOtherwise();
-  std::optional<std::uint32_t> placeOf(std::uint64_t key) const;
+  bool hasOtherContents();
+  std::optional<std::uint32_t> indexOf(std::uint64_t key) const;
   void layOut(const PageScale& scale, std::int64_t now_ns);
 
   std::shared_ptr<const void> presence_ = std::make_shared<char>();
   PageMeshes meshes_;
   std::shared_ptr<const Snapshot> shown_, waiting_;  // the second until its meshes are ready
-  std::vector<MeshPlacement> shown_places_, waiting_places_;
+  std::vector<MeshPlacement> shown_placements_, waiting_placements_;
   std::optional<Layout> layout_;  // of what is shown
   std::uint32_t last_layout_ = 0;
 };

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "io/decode_volumes.h"
+#include "io/vec_messages.h"
 #include "page/page_scene.h"
 #include "session/hand_messages.h"
 #include "session/state_messages.h"
@@ -188,11 +189,9 @@ void receive(TouchSession& first, const ViewerFeedSettings& settings, const std:
   if (!message.ParseFromString(bytes) || message.device() > settings.others.size()) return;
   TouchSession& session = message.device() == 0 ? first : *settings.others[message.device() - 1];
   switch (message.body_case()) {
-    case proto::ViewerMessage::kHandGoal: {
-      const proto::Vec3& p = message.hand_goal().position();
-      session.setHandGoal(Vec3(p.x(), p.y(), p.z()));
+    case proto::ViewerMessage::kHandGoal:
+      session.setHandGoal(vecOf(message.hand_goal().position()));
       break;
-    }
     case proto::ViewerMessage::kRelease:
       session.release();
       break;

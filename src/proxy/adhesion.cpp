@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "proxy/adhesion_load.h"
 #include "proxy/goal_tick.h"
 #include "proxy/spring_energy.h"
 #include "proxy/surface.h"
@@ -12,20 +13,16 @@ namespace hl {
 
 namespace {
 
-double adhesionOf_N(const SceneAt& scene, const ProxySettings& settings, PrimitiveId id) {
-  if (scene.instance(id).plain && !settings.surfaces.adhesion_N) return 0;
-  return Surface(scene, settings.surfaces, id).plain(Quantity::kAdhesion);
-}
-
-class HeldTick {
+class AdheringTick {
  public:
-  HeldTick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger, int most_looks)
+  AdheringTick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
+               int most_looks)
       : state_(state),
         scene_(scene),
         settings_(settings),
         finger_(finger),
         most_looks_(most_looks),
-        world_per_N_(settings.world_per_device / (settings.spring_N_m * state.stiffness)) {
+        world_per_N_(settings.world_per_device / feltSpring_N_m(settings, state)) {
     for (const AdheringContact& contact : state.adhering) {
       if (pull(contact) <= room(contact)) holding_.push(contact);
     }
@@ -34,9 +31,11 @@ class HeldTick {
   TickReport run() {
     TickReport report;
     if (holding_.empty()) return toFinger(0);
-    if (tryGoal(alongSurface(), report)) return report;
+    if (tryGoal(alongSurface(1), report)) return report;
     if (report.used_up_at > 0) return stay(report);
-    if (pulled() && tryGoal(where(), report)) return report;
+    if (pull_m() > 0 && tryGoal(alongSurface(partOverEdge()), report)) return report;
+    if (report.used_up_at > 0) return stay(report);
+    if (pull_m() > 0 && tryGoal(where(), report)) return report;
     return report.used_up_at > 0 ? stay(report) : toFinger(report.looks);
   }
 
@@ -44,28 +43,41 @@ class HeldTick {
   /// m, world: distance of the finger from the proxy along the normal, and the maximum at which the contact holds.
   double pull(const AdheringContact& contact) const { return contact.normal.dot(finger_ - state_.position); }
   double room(const AdheringContact& contact) const { return contact.adhesion_N * world_per_N_; }
-  bool pulled() const {
-    return std::any_of(holding_.begin(), holding_.end(), [&](const AdheringContact& one) { return pull(one) > 0; });
+  /// The largest.
+  double pull_m() const {
+    double most_m = 0;
+    for (const AdheringContact& contact : holding_) most_m = std::max(most_m, pull(contact));
+    return most_m;
   }
+  /// Of the way to the finger: it leads a proxy on an edge or a corner, which are a radius below it, to beneath the
+  /// finger; the whole way leads it beyond.
+  double partOverEdge() const { return (1 - accuracy::kMaxLowered) * settings_.radius / (settings_.radius + pull_m()); }
 
-  Vec3 alongSurface() const {
-    Vec3 goal = finger_;
+  Vec3 alongSurface(double part) {
+    Vec3 goal = state_.position + part * (finger_ - state_.position);
+    loads_.clear();
     for (const AdheringContact& contact : holding_) {
       const double above = std::max(0.0, contact.normal.dot(goal - state_.position));
-      const double pressed = std::min(room(contact) - std::max(0.0, pull(contact)), settings_.radius);
-      goal -= (above + pressed) * contact.normal;
+      goal -= (above + pressedBy(contact, room(contact) - std::max(0.0, pull(contact)))) * contact.normal;
     }
     return goal;
   }
-  Vec3 where() const {
+  Vec3 where() {
     Vec3 goal = state_.position;
-    for (const AdheringContact& contact : holding_) goal -= std::min(room(contact), settings_.radius) * contact.normal;
+    loads_.clear();
+    for (const AdheringContact& contact : holding_) goal -= pressedBy(contact, room(contact)) * contact.normal;
     return goal;
+  }
+  /// By how much the goal is lowered for a load of `whole_m`. The rest acts in friction alone.
+  double pressedBy(const AdheringContact& contact, double whole_m) {
+    const double lowered_m = std::min(whole_m, accuracy::kMaxLowered * settings_.radius);
+    loads_.push({contact.normal, whole_m - lowered_m});
+    return lowered_m;
   }
 
   bool tryGoal(const Vec3& goal, TickReport& report) {
     ProxyState there = state_;
-    report = tickTo(goal, there, report.looks);
+    report = tickTo(goal, there, report.looks, &loads_);
     const double added_J = energyOf_J(there) - energyOf_J(state_);
     if (added_J > 0 || adheringOf(scene_, settings_, report).empty()) return false;
     take(there, added_J, report);
@@ -83,9 +95,9 @@ class HeldTick {
     there.ledger.book(added_J, true);
     report.injected_J = added_J;
     state_ = there;
-    tellOfFinger(report);
+    reportForFinger(report);
   }
-  void tellOfFinger(TickReport& report) const {
+  void reportForFinger(TickReport& report) const {
     const Vec3 whole = state_.position - finger_;
     report.target = finger_ + state_.stiffness * whole;
     Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> normals(3, report.contacts.size());
@@ -94,12 +106,14 @@ class HeldTick {
     const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> shares = normals.colPivHouseholderQr().solve(whole);
     for (std::size_t i = 0; i < report.contacts.size(); ++i) {
       report.contacts[i].multiplier_m = shares[static_cast<Eigen::Index>(i)];
-      report.contacts[i].rough = true;  // the contact carries the proxy with the object until the next tick
+      report.contacts[i].holds_tangentially =
+          true;  // the contact carries the proxy with the object until the next tick
     }
   }
 
   TickReport stay(const TickReport& tried) {
     TickReport report = notCounted(tried, Ending::kOutOfWork);
+    report.stayed = true;
     report.target = finger_ + state_.stiffness * (state_.position - finger_);
     return report;
   }
@@ -107,10 +121,9 @@ class HeldTick {
   TickReport toFinger(int looks) { return tickTo(finger_, state_, looks); }
 
   /// A tick toward `goal`, after `looks` looks of earlier attempts.
-  TickReport tickTo(const Vec3& goal, ProxyState& state, int looks) const {
-    TickReport report = Tick(scene_, settings_, state, goal, most_looks_ - looks).run();
-    report.looks += looks;
-    if (report.used_up_at > 0) report.used_up_at += looks;
+  TickReport tickTo(const Vec3& goal, ProxyState& state, int looks, const AdhesionLoads* loads = nullptr) const {
+    TickReport report = Tick(scene_, settings_, state, goal, most_looks_ - looks, loads).run();
+    report.addEarlierLooks(looks);
     return report;
   }
 
@@ -121,19 +134,20 @@ class HeldTick {
   const int most_looks_;
   const double world_per_N_;
   AdheringContacts holding_;  // contacts whose adhesion exceeds the pull
+  AdhesionLoads loads_;       // of the goal that is tried
 };
 
 }  // namespace
 
-TickReport tickHeld(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
-                    int most_looks) {
-  return HeldTick(state, scene, settings, finger, most_looks).run();
+TickReport tickAdhering(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
+                        int most_looks) {
+  return AdheringTick(state, scene, settings, finger, most_looks).run();
 }
 
 AdheringContacts adheringOf(const SceneAt& scene, const ProxySettings& settings, const TickReport& report) {
   AdheringContacts adhering;
   for (const ProxyContact& contact : report.contacts) {
-    const double adhesion_N = adhesionOf_N(scene, settings, contact.primitive);
+    const double adhesion_N = constantOf(scene, settings.surfaces, contact.primitive, Quantity::kAdhesion);
     if (adhesion_N > 0) adhering.push({contact.normal, adhesion_N});
   }
   return adhering;

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "base/vec.h"
+#include "proxy/mean_stiffness.h"
 #include "proxy/proxy_state.h"
 #include "proxy/tick_report.h"
 
@@ -20,21 +21,6 @@ enum class TickEnd : std::uint8_t {
   kOpen,     ///< at the finger, without active contacts
   kContact,  ///< held by active contacts
   kOnItsWay  ///< without contact: the tick ended before the proxy came to the finger or to a contact
-};
-
-/// Stiffness of several surfaces: the mean, weighted by their normal forces. Then the target stays between finger and
-/// proxy, as in the paper's equation (4); a contact fades in with its lambda; s stays in the range of the surfaces'
-/// values. Softening each surface's own force, sum s_i lambda_i n_i, has none of these properties: in a narrow groove
-/// of one hard and one soft wall it pushes sideways with 1 / (2 sin(opening / 2)) times the force.
-class MeanStiffness {
- public:
-  void add(double multiplier_m, double stiffness);
-  bool empty() const { return most_ < least_; }
-  double value() const;
-
- private:
-  double weights_m_ = 0, weighted_m_ = 0;
-  double least_ = 1, most_ = 0;
 };
 
 class EnergyBooking {

@@ -9,12 +9,12 @@
 namespace hl {
 
 /// So many act at once, drags beside them; of more, the first of the scene.
-inline constexpr std::size_t kMostFieldsAtOnce = 4;
+inline constexpr std::size_t kMaxFieldsAtOnce = 4;
 
 struct FieldForces {
-  Vec3 force_N = Vec3::Zero();                         ///< on the hand, world axes; the sum of `forces`
-  double damping_Ns_m = 0;                             ///< at the hand, of all regions together
-  FixedVector<ObjectForce, kMostFieldsAtOnce> forces;  ///< by object; a drag is none of them
+  Vec3 force_N = Vec3::Zero();                        ///< on the hand, world axes; the sum of `forces`
+  double damping_Ns_m = 0;                            ///< at the hand, of all regions together
+  FixedVector<ObjectForce, kMaxFieldsAtOnce> forces;  ///< by object; a drag is none of them
 };
 
 /// At the place of the finger, m, world. RT-safe.

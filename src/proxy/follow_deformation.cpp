@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "proxy/yielding.h"
+#include "proxy/contact_parts.h"
 
 namespace hl {
 
@@ -88,7 +88,7 @@ void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySet
     estimate.element = contact.primitive.element;
     estimate.weights = contact.weights;
     estimate.normal = contact.normal;
-    estimate.force_N = settings.spring_N_m / settings.world_per_device * pull;
+    estimate.force_N = settings.springInWorld_N_m() * pull;
   }
 }
 

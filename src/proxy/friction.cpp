@@ -10,17 +10,17 @@ namespace hl {
 
 double SlipResistance::staticPull() const {
   double sum = 0;
-  for (const ContactFriction& rub : contacts) sum += rub.static_m;
+  for (const ContactFriction& contact : contacts) sum += contact.static_m;
   return sum;
 }
 
 // mu(v) = mu_d + (mu_s - mu_d) exp(-(v / v_s)^2): the Stribeck curve.
 double SlipResistance::coulombPull(double slip) const {
   double sum = 0;
-  for (const ContactFriction& rub : contacts) {
-    const double ratio = rub.stribeck_m > 0 ? slip / rub.stribeck_m : 1;
-    const double left = rub.stribeck_m > 0 ? plain::expOfNegative(-ratio * ratio) : 0;
-    sum += rub.dynamic_m + left * (rub.static_m - rub.dynamic_m);
+  for (const ContactFriction& contact : contacts) {
+    const double ratio = contact.stribeck_m > 0 ? slip / contact.stribeck_m : 1;
+    const double left = contact.stribeck_m > 0 ? plain::expOfNegative(-ratio * ratio) : 0;
+    sum += contact.dynamic_m + left * (contact.static_m - contact.dynamic_m);
   }
   return sum;
 }

@@ -1,6 +1,6 @@
 // Friction: how far the proxy slips along the surface in one tick. Forces are written as lengths, newtons divided by
-// the spring's K: the pull is the tangential part of finger - proxy; the normal force of contact i is its multiplier
-// lambda_i.
+// the spring's K, here that which is felt, K s: the pull is the tangential part of finger - proxy; the normal force of
+// contact i is its multiplier lambda_i.
 //
 // Implicit step (Kikuuwe et al. 2006 with B = 0; friction cone of Harwin and Melder): after a slip of D the remaining
 // pull balances the resistance,
@@ -11,10 +11,11 @@
 
 #include "base/fixed_vector.h"
 #include "base/function_ref.h"
+#include "proxy/solver.h"
 
 namespace hl {
 
-/// Friction of one contact, m (newtons over K).
+/// Friction of one contact, m (newtons over K s).
 struct ContactFriction {
   double static_m = 0;    ///< mu_s lambda
   double dynamic_m = 0;   ///< mu_d lambda, at most static_m
@@ -23,7 +24,7 @@ struct ContactFriction {
 
 /// Resistance of all contacts to a slip in one direction.
 struct SlipResistance {
-  FixedVector<ContactFriction, 3> contacts;
+  FixedVector<ContactFriction, kMaxActive> contacts;
   double viscous = 0;  ///< sum of b / (K T): pull in m per m of slip in one tick
   double presliding_ratio =
       0;  ///< sum of sigma_0 / K of the pre-sliding springs: pull in m per m of pre-sliding offset; 0: rigid

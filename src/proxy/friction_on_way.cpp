@@ -10,19 +10,33 @@ SurfaceFriction SurfaceFriction::of(const Surface& surface) {
           surface.read(Quantity::kViscosity), surface.plain(Quantity::kStribeck), surface.plain(Quantity::kPresliding)};
 }
 
-void FrictionOnWay::add(const SurfaceFriction& friction, const Patch& patch, const Vec2& moved, double normal_m) {
+// A body that is dragged gets the impulse o that it is owed in the steps after the tick, p = 1 / (1 + K T w) of it in
+// each (BodyStepper::addHand). With the velocity u of the finger, v of the surface and w, its mobility, F = B (u - v)
+// gives
+//   v' = v + w p o,   o' = (1 - p) o + F.
+// Its roots are real, so that nothing swings, where 4 B w <= p; a damper B = b drives light bodies apart. So
+//   B = b / (1 + 4 b w / p)
+double FrictionOnWay::TouchedSurface::viscosity_Ns_m(const Vec2& at) const {
+  const double damping_Ns_m = std::max(0.0, friction->viscosity.at(at));
+  return damping_Ns_m / (1 + damping_Ns_m * swing_m_Ns);
+}
+
+void FrictionOnWay::add(const SurfaceFriction& friction, const Patch& patch, const Vec2& moved, double normal_m,
+                        double mobility_m_Ns) {
   TouchedSurface surface;
   surface.friction = &friction;
   surface.patch = &patch;
   surface.moved = moved;
   surface.normal_m = std::max(0.0, normal_m);
+  surface.swing_m_Ns = 4 * mobility_m_Ns * (1 + felt_N_m_ * settings_.period_s * mobility_m_Ns);
   const bool textured = friction.textured();
   surface.stribeck_m = textured ? 0 : friction.stribeck_m_s * settings_.period_s * settings_.world_per_device;
   surface.texcoord = textured ? patch.texcoord(moved) : Vec2(Vec2::Zero());
   surface.texcoord_way = Vec2::Zero();
   surfaces_.push(surface);
   slip_textured_ |= friction.slipTextured();
-  presliding_ratio_ += friction.presliding_N_m / settings_.spring_N_m;
+  const double spring_N_m = friction.presliding_N_m;
+  presliding_ratio_ += spring_N_m / (1 + spring_N_m * settings_.period_s * surface.swing_m_Ns) / felt_N_m_;
 }
 
 SlipResistance FrictionOnWay::here() const {
@@ -34,9 +48,9 @@ SlipResistance FrictionOnWay::here() const {
     const double dynamic = std::max(0.0, rough.dynamic.at(surface.texcoord));
     const double fixed = std::max(dynamic, rough.fixed.at(surface.texcoord));
     drag.contacts.push({fixed * surface.normal_m, dynamic * surface.normal_m, surface.stribeck_m});
-    viscosity_Ns_m += std::max(0.0, rough.viscosity.at(surface.texcoord));
+    viscosity_Ns_m += surface.viscosity_Ns_m(surface.texcoord);
   }
-  drag.viscous = viscosity_Ns_m / (settings_.spring_N_m * settings_.period_s);
+  drag.viscous = viscosity_Ns_m / (felt_N_m_ * settings_.period_s);
   return drag;
 }
 
@@ -45,9 +59,9 @@ SlidingResistance FrictionOnWay::at(double part) const {
   for (const TouchedSurface& surface : surfaces_) {
     const Vec2 texcoord = surface.texcoord + part * surface.texcoord_way;
     drag.coulomb_m += std::max(0.0, surface.friction->dynamic.at(texcoord)) * surface.normal_m;
-    drag.viscous += std::max(0.0, surface.friction->viscosity.at(texcoord));
+    drag.viscous += surface.viscosity_Ns_m(texcoord);
   }
-  drag.viscous /= settings_.spring_N_m * settings_.period_s;
+  drag.viscous /= felt_N_m_ * settings_.period_s;
   return drag;
 }
 

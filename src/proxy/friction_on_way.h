@@ -8,6 +8,7 @@
 #include "proxy/friction.h"
 #include "proxy/patch.h"
 #include "proxy/proxy_state.h"
+#include "proxy/solver.h"
 #include "proxy/surface.h"
 
 namespace hl {
@@ -28,11 +29,14 @@ struct SurfaceFriction {
 /// RT-safe. The objects passed to add() must outlive this object.
 class FrictionOnWay {
  public:
-  explicit FrictionOnWay(const ProxySettings& settings) : settings_(settings) {}
+  /// `felt_N_m`: the spring as it is felt, K s. The resistances in N s/m and N/m act on the hand, however soft it is.
+  FrictionOnWay(const ProxySettings& settings, double felt_N_m) : settings_(settings), felt_N_m_(felt_N_m) {}
 
   /// Adds a contact at the point of `patch` after a change of weights `moved`, with a normal force of `normal_m`
-  /// (newtons over K).
-  void add(const SurfaceFriction& friction, const Patch& patch, const Vec2& moved, double normal_m);
+  /// (newtons over K s). `mobility_m_Ns`: by how much faster the surface goes, m/s at the hand, when it is dragged with
+  /// 1 N for a tick.
+  void add(const SurfaceFriction& friction, const Patch& patch, const Vec2& moved, double normal_m,
+           double mobility_m_Ns);
 
   SlipResistance here() const;
   bool slipTextured() const { return slip_textured_; }
@@ -52,13 +56,16 @@ class FrictionOnWay {
     const Patch* patch;
     Vec2 moved;
     double normal_m, stribeck_m;
+    double swing_m_Ns;  // 4 w / p: the inverse of the largest damper that swings no body
+    double viscosity_Ns_m(const Vec2& at) const;
     Vec2 texcoord, texcoord_way;
   };
   void countTexels(const TouchedSurface& surface);
   void findEdge(const SurfacePoint& from, const Vec2& way);
 
   const ProxySettings& settings_;
-  FixedVector<TouchedSurface, 3> surfaces_;
+  double felt_N_m_;
+  FixedVector<TouchedSurface, kMaxActive> surfaces_;
   double presliding_ratio_ = 0;
   bool slip_textured_ = false;
   double texels_ = 0;

@@ -1,16 +1,9 @@
 #include "proxy/goal_tick.h"
 
 #include "proxy/spring_energy.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
-
-namespace {
-
-// Far above the rounding of energies that are compared, far below what can be felt: a part of them, and J, what a
-// spring of 1000 N/m has at 1 nm.
-constexpr double kEnergyRounding = 1e-12, kEnergyRounding_J = 1e-15;
-
-}  // namespace
 
 TickReport notCounted(const TickReport& tried, Ending why) {
   TickReport report;
@@ -27,7 +20,7 @@ TickReport tickToGoal(ProxyState& state, const ProxySettings& settings, const Ve
   TickReport report = tick_to(goal.place, there, 0);
   const double added_J = springEnergy_J(settings, there, finger) - goal.before_J;
   const double budget_J = state.ledger.budget_J(settings.ledger);
-  if (!(added_J <= budget_J + kEnergyRounding * goal.before_J + kEnergyRounding_J))
+  if (!(added_J <= budget_J + accuracy::kEnergyRounding * goal.before_J + accuracy::kEnergyRounding_J))
     return notCounted(report, Ending::kNoEnergy);
   there.ledger = state.ledger;
   there.ledger.book(added_J, true);
@@ -36,7 +29,7 @@ TickReport tickToGoal(ProxyState& state, const ProxySettings& settings, const Ve
   return report;
 }
 
-void tellPull(ProxyState& state, const Vec3& finger, const Vec3& pull_m, TickReport& report) {
+void setHeldPull(ProxyState& state, const Vec3& finger, const Vec3& pull_m, TickReport& report) {
   state.touching = true;
   report.target = finger + state.stiffness * (state.position + state.rest_offset_m - finger);
   report.held_pull_m = pull_m;

@@ -27,6 +27,6 @@ TickReport tickToGoal(ProxyState& state, const ProxySettings& settings, const Ve
 
 /// After such a tick: the servo pulls the finger to the rest of the spring, of which contacts do not hold `pull_m`.
 /// RT-safe.
-void tellPull(ProxyState& state, const Vec3& finger, const Vec3& pull_m, TickReport& report);
+void setHeldPull(ProxyState& state, const Vec3& finger, const Vec3& pull_m, TickReport& report);
 
 }  // namespace hl

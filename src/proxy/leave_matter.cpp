@@ -5,6 +5,7 @@
 #include <span>
 
 #include "proxy/clear_place.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
 
@@ -17,24 +18,28 @@ Site siteOf(const SceneAt& scene, const Instance& instance, const Vec3& place) {
 /// The nearest places are tried first, on all the ways at once.
 class WayOut {
  public:
-  WayOut(const SceneAt& scene, const PiercedObjects& within, double reach)
+  WayOut(const SceneAt& scene, const MatterObjects& within, double reach)
       : scene_(scene),
         within_(within),
         reach_(reach),
-        step_(std::max(kStepPerReach * reach, 2 * scene.extent() / convergence::kMostSites)) {}
+        step_(std::max(convergence::kSitePerReach * reach, 2 * scene.extent() / convergence::kMaxSites)) {}
 
   bool clear(const Vec3& place) {
-    if (!open(place) || queries_ >= convergence::kMostClearances) return false;
+    if (!open(place) || queries_ >= convergence::kMaxClearances) return false;
     ++queries_;
     return clearanceAt(scene_, place, reach_) >= reach_;
   }
 
+  /// From now on places count that are not within what the proxy was within, too.
+  void leave() { stays_within_ = false; }
+
   /// Unit vectors; `position` changes only if there is a way.
   bool find(std::span<const Vec3> ways, Vec3& position) {
     queries_ = 0;
-    for (int i = 1; i <= convergence::kMostSites; ++i) {
+    for (int i = 1; i <= convergence::kMaxSites; ++i) {
       for (const Vec3& way : ways) {
         const Vec3 place = position + i * step_ * way;
+        if (stays_within_ && !staysWithin(place)) continue;
         if (!clear(place)) continue;
         position = place;
         return true;
@@ -44,22 +49,29 @@ class WayOut {
   }
 
  private:
-  static constexpr double kStepPerReach = 0.5;
-
+  bool wasWithin(const Instance& instance) const {
+    return std::find(within_.begin(), within_.end(), instance.key) != within_.end();
+  }
   bool open(const Vec3& place) const {
     const auto& instances = scene_.snapshot().instances;
     return std::none_of(instances.begin(), instances.end(), [&](const Instance& instance) {
-      if (!instance.shape->source) return false;
-      if (std::find(within_.begin(), within_.end(), instance.key) != within_.end()) return false;
+      if (!instance.shape->source || wasWithin(instance)) return false;
       const Site site = siteOf(scene_, instance, place);
       return site == Site::kMatter || site == Site::kBoundary;
     });
   }
+  bool staysWithin(const Vec3& place) const {
+    const auto& instances = scene_.snapshot().instances;
+    return std::all_of(instances.begin(), instances.end(), [&](const Instance& instance) {
+      return !instance.shape->source || !wasWithin(instance) || siteOf(scene_, instance, place) == Site::kMatter;
+    });
+  }
 
   const SceneAt& scene_;
-  const PiercedObjects& within_;
+  const MatterObjects& within_;
   const double reach_, step_;
   int queries_ = 0;
+  bool stays_within_ = true;
 };
 
 // To the neighbours of a cube among its 27.
@@ -88,11 +100,13 @@ void leaveMatter(ProxyState& state, const SceneAt& scene, const ProxySettings& s
   if (out.clear(state.position)) return;
   const Vec3 spring = state.position - finger;
   const double length = spring.norm();
-  if (length > tolerance.rest) {
-    const std::array<Vec3, 1> along{Vec3(spring / length)};
-    if (out.find(along, state.position)) return;
-  }
-  out.find(allAround(), state.position);
+  const std::array<Vec3, 1> along{length > tolerance.rest ? Vec3(spring / length) : Vec3::Zero()};
+  const auto find = [&] {
+    return (length > tolerance.rest && out.find(along, state.position)) || out.find(allAround(), state.position);
+  };
+  if (find() || state.within.empty()) return;
+  out.leave();
+  find();
 }
 
 void rememberMatter(ProxyState& state, const SceneAt& scene) {

@@ -10,7 +10,8 @@ namespace hl {
 
 /// In the first tick of a scene with such surfaces: brings a proxy that is in their matter, or too near to them, to a
 /// place that is clear of the scene and out of all matter. It is sought along the spring from `finger` to the proxy,
-/// and then all around. If there is none, the proxy stays. RT-safe; at most convergence::kMostSites places per way.
+/// and then all around; first among the places within what the proxy was within, then among all. If there is none, the
+/// proxy stays. RT-safe; at most convergence::kMaxSites places per way.
 void leaveMatter(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
 
 /// After a tick: notes the objects in whose matter the proxy is. RT-safe.

@@ -32,7 +32,7 @@ TickReport tickInMatter(ProxyState& state, const ProxySettings& settings, const 
   TickReport report = tickToGoal(state, settings, finger, {place, before_J}, tick_to);
   for (ProxyContact& contact : report.contacts) contact.multiplier_m *= harder;
   const Vec3 rest = state.position + state.rest_offset_m;
-  tellPull(state, finger, rest - finger - (report.contacts.empty() ? 0 : harder) * (rest - place), report);
+  setHeldPull(state, finger, rest - finger - (report.contacts.empty() ? 0 : harder) * (rest - place), report);
   return report;
 }
 

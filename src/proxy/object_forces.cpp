@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "proxy/yielding.h"
+#include "proxy/contact_parts.h"
 
 namespace hl {
 
@@ -22,13 +22,12 @@ void add(ObjectForces& forces, std::uint64_t key, const Vec3& point, const Vec3&
 ObjectForces objectForces(const SceneAt& scene, const ProxySettings& settings, const ProxyState& state,
                           const TickReport& report, const Vec3& finger) {
   ObjectForces forces;
-  const double spring_N_m = settings.spring_N_m / settings.world_per_device;
+  const double spring_N_m = settings.springInWorld_N_m();
   const Vec3 total_N = spring_N_m * (report.target - finger);
-  const Vec3 by_contacts_m = state.position + state.rest_offset_m - finger - report.held_pull_m;
-  const ContactParts parts = partsOf(report.contacts, by_contacts_m);
+  const ContactParts by_contacts_N = contactForces_N(settings, state, report, finger);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const ProxyContact& contact = report.contacts[i];
-    add(forces, scene.instance(contact.primitive).key, contact.point, spring_N_m * state.stiffness * parts[i]);
+    add(forces, scene.instance(contact.primitive).key, contact.point, by_contacts_N[i]);
   }
   if (state.snap.holds())
     forces.push({state.snap.key, report.snap_point, spring_N_m * state.stiffness * report.held_pull_m});

@@ -1,15 +1,15 @@
 // Object forces: the force of each object on the hand in a tick, so that a simulation that moves the objects can apply
 // the reaction.
 //
-// The spring's force K s (proxy - finger) is shared by the active contacts. Contact i presses with K s lambda_i along
-// its normal. The rest is friction, divided in proportion to the friction limit of each contact, mu_i lambda_i, or to
-// lambda_i if no contact has friction. What a snap holds (snapping.h) is the force of its object at its point.
+// The spring's force K s (proxy - finger) is shared by the active contacts (contact_parts.h). What a snap holds
+// (snapping.h) is the force of its object at its point.
 #pragma once
 
 #include <cstdint>
 
 #include "base/fixed_vector.h"
 #include "proxy/proxy_state.h"
+#include "proxy/solver.h"
 #include "proxy/tick_report.h"
 #include "scene/scene_at.h"
 
@@ -22,7 +22,7 @@ struct ObjectForce {
   Vec3 force_N = Vec3::Zero();
 };
 /// At most one per active contact, and one per object, but for that of a snap.
-using ObjectForces = FixedVector<ObjectForce, 4>;
+using ObjectForces = FixedVector<ObjectForce, kMaxActive + 1>;
 
 /// Forces after the tick that returned `state` and `report` for `finger`. Their sum is K (target - finger) /
 /// world_per_device, to rounding. RT-safe.

@@ -9,9 +9,7 @@ namespace hl {
 namespace {
 
 double strengthOf_N(const SceneAt& scene, const ProxySettings& settings, PrimitiveId id) {
-  const Instance& instance = scene.instance(id);
-  if (instance.movesAsBody() || (instance.plain && !settings.surfaces.strength_N)) return 0;
-  return Surface(scene, settings.surfaces, id).plain(Quantity::kStrength);
+  return scene.instance(id).movesAsBody() ? 0 : constantOf(scene, settings.surfaces, id, Quantity::kStrength);
 }
 
 // What presses an object, as a length: times K s it is a force. Contacts that pull do not press.

@@ -7,6 +7,7 @@
 #include "base/fixed_vector.h"
 #include "base/vec.h"
 #include "proxy/contacts.h"
+#include "proxy/solver.h"
 #include "proxy/surface.h"
 
 namespace hl {
@@ -44,7 +45,7 @@ struct Proposal {
   bool resisted = false;          ///< friction or viscosity act on it
   bool preslides = false;         ///< static friction holds the proxy, on its pre-sliding springs
   Vec3 step = Vec3::Zero();
-  FixedVector<ActiveContact, 3> active;
+  FixedVector<ActiveContact, kMaxActive> active;
   double shading = 0, bump = 0;  ///< the largest turns of the active shading normals, as in ShadingNormal
   double viscous = 0;            ///< pull used up by viscosity per metre of the step
   double presliding_ratio = 0;   ///< SlipResistance::presliding_ratio

@@ -24,7 +24,7 @@ std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report, const He
   double most = 0;
   std::uint64_t key = snap.key;
   for (const ProxyContact& contact : report.contacts) {
-    if (!contact.rough || contact.multiplier_m <= most) continue;
+    if (!contact.holds_tangentially || contact.multiplier_m <= most) continue;
     most = contact.multiplier_m;
     key = scene.instance(contact.primitive).key;
   }
@@ -52,11 +52,11 @@ TickReport notRun(Ending why, const Vec3& target) {
 }
 
 // A tick in which a surface may adhere or yield. One that has left a surface that yields goes on to the finger itself.
-TickReport tickTo(const Vec3& finger, ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
-                  int most_looks) {
+TickReport tickYielding(const Vec3& finger, ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
+                        int most_looks) {
   const Vec3 from = finger - state.rest_offset_m;
   TickReport report = state.adhering.empty() ? Tick(scene, settings, state, from, most_looks).run()
-                                             : tickHeld(state, scene, settings, from, most_looks);
+                                             : tickAdhering(state, scene, settings, from, most_looks);
   if (state.rest_offset_m.isZero(0)) return report;
   report.target += state.rest_offset_m;
   if (!report.contacts.empty() || report.used_up_at > 0) return report;
@@ -65,18 +65,16 @@ TickReport tickTo(const Vec3& finger, ProxyState& state, const SceneAt& scene, c
   const double injected_J = report.injected_J;
   report = Tick(scene, settings, state, finger, most_looks - looks).run();
   report.injected_J += injected_J;
-  report.looks += looks;
-  if (report.used_up_at > 0) report.used_up_at += looks;
+  report.addEarlierLooks(looks);
   return report;
 }
 
 // A tick in which a snap may take the proxy, hold it or let go of it, or matter may hold it back.
-TickReport tickHeldOrFree(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
-                          int most_looks) {
+TickReport tickSnappedOrInMatter(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
+                                 const Vec3& finger, int most_looks) {
   const auto tick_to = [&](const Vec3& goal, ProxyState& at, int looks) {
-    TickReport report = tickTo(goal, at, scene, settings, most_looks - looks);
-    report.looks += looks;
-    if (report.used_up_at > 0) report.used_up_at += looks;
+    TickReport report = tickYielding(goal, at, scene, settings, most_looks - looks);
+    report.addEarlierLooks(looks);
     return report;
   };
   const bool was_held = state.snap.holds();
@@ -89,13 +87,13 @@ TickReport tickHeldOrFree(ProxyState& state, const SceneAt& scene, const ProxySe
 }
 
 // A tick in the scene that the proxy has not pierced.
-TickReport tickWithin(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
-                      int most_looks) {
+TickReport tickUnpierced(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
+                         int most_looks) {
   if (!state.free && !beginProxy(state, scene, settings, finger, convergence::kPlacesPerTick))
     return notRun(Ending::kUnplaced, finger);
   const double moved_J = carryAlong(state, scene, settings, finger);
   if (!canBeFinger(finger - state.rest_offset_m)) state.rest_offset_m = Vec3::Zero();
-  TickReport report = tickHeldOrFree(state, scene, settings, finger, most_looks);
+  TickReport report = tickSnappedOrInMatter(state, scene, settings, finger, most_looks);
   report.moved_J = moved_J;
   const Vec3 aim = finger + report.held_pull_m;  // what the contacts hold the proxy from
   rememberDeformation(state, scene, settings, report, aim);
@@ -103,7 +101,7 @@ TickReport tickWithin(ProxyState& state, const SceneAt& scene, const ProxySettin
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;
   state.carrier = carrierOf(scene, report, state.snap);
-  state.adhering = adheringOf(scene, settings, report);
+  if (!report.stayed) state.adhering = adheringOf(scene, settings, report);
   return report;
 }
 
@@ -119,9 +117,9 @@ TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& se
                 int most_looks) {
   if (!canBeFinger(finger)) return notRun(Ending::kInvalid, state.position);
   const TickReport report = state.pierced.empty()
-                                ? tickWithin(state, scene, settings, finger, most_looks)
-                                : tickWithin(state, SceneAt(scene, {state.pierced.begin(), state.pierced.size()}),
-                                             settings, finger, most_looks);
+                                ? tickUnpierced(state, scene, settings, finger, most_looks)
+                                : tickUnpierced(state, SceneAt(scene, {state.pierced.begin(), state.pierced.size()}),
+                                                settings, finger, most_looks);
   rememberPiercing(state, scene, settings, report);
   rememberMatter(state, scene);
   return report;

@@ -19,10 +19,11 @@ namespace hl {
 ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
 
 /// Moves the proxy toward the finger under the rules of the surfaces in contact, and books the energy. A proxy that is
-/// not yet free is first moved to a start position, if one is found. Afterwards |proxy - surface| >= radius. Without
-/// shading and bump maps |proxy - finger| does not increase. `most_looks` (> 0) limits the number of looks (work.h): a
-/// recorded tick is replayed with its recorded number. A finger that is not finite or too far changes nothing
-/// (Ending::kInvalid). RT-safe.
+/// not yet free is first moved to a start position, if one is found. Afterwards |proxy - surface| >= radius, but for
+/// objects that the proxy has pierced (piercing.h) and between moving objects that leave it no room. |proxy - finger|
+/// does not increase, but for shading and bump maps, pre-sliding springs, snaps and moving objects; what it adds to the
+/// spring's energy is booked. `most_looks` (> 0) limits the number of looks (work.h): a recorded tick is replayed with
+/// its recorded number. A finger that is not finite or too far changes nothing (Ending::kInvalid). RT-safe.
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
                 int most_looks = kNoWorkCap);
 

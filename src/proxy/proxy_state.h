@@ -9,9 +9,11 @@
 #include "base/vec.h"
 #include "proxy/compliance_estimate.h"
 #include "proxy/proxy_cache.h"
+#include "proxy/solver.h"
 #include "proxy/start_search.h"
 #include "proxy/tolerances.h"
 #include "scene/material.h"
+#include "scene/scene_at.h"
 
 namespace hl {
 
@@ -35,6 +37,8 @@ struct ProxySettings {
   ShadingPasses shading = ShadingPasses::kConverged;
   LedgerMode ledger = LedgerMode::kTank;
   MaterialOverride surfaces{};  ///< user settings that override the scene
+
+  double springInWorld_N_m() const { return spring_N_m / world_per_device; }  ///< N at the hand for 1 m of the scene
 };
 
 /// A contact with a surface that holds the proxy until the pull along `normal` exceeds `adhesion_N`.
@@ -42,7 +46,7 @@ struct AdheringContact {
   Vec3 normal;  ///< unit, from the surface to the proxy
   double adhesion_N;
 };
-using AdheringContacts = FixedVector<AdheringContact, 3>;
+using AdheringContacts = FixedVector<AdheringContact, kMaxActive>;
 
 /// A contact of the last tick, as one of the springs that yield (yielding.h).
 struct YieldingContact {
@@ -54,10 +58,13 @@ struct YieldingContact {
   Vec3 part_m = Vec3::Zero();   ///< its part e_i of proxy - finger
   Vec3 normal = Vec3::UnitY();  ///< from the surface to the proxy
 };
-using YieldingContacts = FixedVector<YieldingContact, 3>;
+using YieldingContacts = FixedVector<YieldingContact, kMaxActive>;
 
-/// Keys of objects that have let the proxy through: those that still overlap it (piercing.h), and those within it is.
-using PiercedObjects = FixedVector<std::uint64_t, 4>;
+/// Keys of objects that have let the proxy through and still overlap it (piercing.h).
+using PiercedObjects = FixedVector<std::uint64_t, SceneAt::kMaxLeftOut>;
+
+/// Keys of objects in whose matter the proxy is (leave_matter.h).
+using MatterObjects = FixedVector<std::uint64_t, kMaxMatter>;
 
 /// The snap that holds the proxy (snapping.h).
 struct HeldSnap {
@@ -79,7 +86,7 @@ struct ProxyState {
   std::uint64_t carrier = 0;           ///< key of the object whose friction or snap holds the proxy; 0: none
   HeldSnap snap{};
   PiercedObjects pierced{};
-  PiercedObjects within{};            ///< keys of objects in whose matter the proxy is (leave_matter.h)
+  MatterObjects within{};
   AdheringContacts adhering{};        ///< adhesive contacts of the last tick (adhesion.h)
   YieldingContacts yielding{};        ///< contacts of the last tick; empty if none of them yields
   double yielding_stiffness = 1;      ///< s of these contacts

@@ -34,7 +34,7 @@ class RecentCuts {
   void keepActive();
 
  private:
-  static constexpr std::size_t kRoom = 6;  // at most three active planes per step, for two steps
+  static constexpr std::size_t kRoom = 2 * kMaxActive;  // of two steps
 
   FixedVector<PrimitiveId, kRoom> active_, left_;
 };

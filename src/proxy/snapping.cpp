@@ -30,7 +30,7 @@ const SnapSpec* find(const HeldSnap& held, const SceneAt& scene, std::uint32_t& 
 
 // R, m of the world, from which the spring pulls by more than the snap holds.
 double releaseDistance_m(const SnapSpec& snap, const ProxySettings& settings) {
-  const double spring_N_m = settings.spring_N_m / settings.world_per_device;
+  const double spring_N_m = settings.springInWorld_N_m();
   return spring_N_m > 0 ? snap.release_N / spring_N_m : std::numeric_limits<double>::infinity();
 }
 
@@ -105,7 +105,7 @@ TickReport tickSnapped(ProxyState& state, const ProxySettings& settings, const V
     return tick_to(finger, state, report.looks);
   }
   const Vec3 held = report.contacts.empty() ? Vec3(state.position + state.rest_offset_m) : aim;
-  tellPull(state, finger, held - finger, report);
+  setHeldPull(state, finger, held - finger, report);
   report.snap_point = goal;
   return report;
 }

@@ -11,6 +11,9 @@
 
 namespace hl {
 
+/// Planes that are active at once at most, and so the contacts that hold a proxy: one a dimension.
+inline constexpr std::size_t kMaxActive = 3;
+
 /// The half-space normal . x >= offset, offset in m; `normal` is unit.
 struct Plane {
   Vec3 normal = Vec3::Zero();
@@ -18,12 +21,12 @@ struct Plane {
 };
 
 struct SolverResult {
-  Vec3 point = Vec3::Zero();            ///< the minimiser
-  std::size_t active_count = 0;         ///< 0..3
-  std::array<std::size_t, 3> active{};  ///< indices of the active planes
-  std::array<double, 3> multiplier{};   ///< m, >= 0: point - goal = sum multiplier_i normal_i
-  double violation = 0;                 ///< m, largest violation of a plane; above the tolerance: infeasible
-  std::size_t rounds = 0;               ///< passes over the planes
+  Vec3 point = Vec3::Zero();                     ///< the minimiser
+  std::size_t active_count = 0;                  ///< 0..kMaxActive
+  std::array<std::size_t, kMaxActive> active{};  ///< indices of the active planes
+  std::array<double, kMaxActive> multiplier{};   ///< m, >= 0: point - goal = sum multiplier_i normal_i
+  double violation = 0;                          ///< m, largest violation of a plane; above the tolerance: infeasible
+  std::size_t rounds = 0;                        ///< passes over the planes
 };
 
 /// min |x - goal| subject to every plane, each met to within `tolerance` (m, > 0). The order of the planes changes the

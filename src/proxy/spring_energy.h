@@ -1,9 +1,18 @@
-// The energy of the servo's spring between finger and target, as counted in the ledger.
+// The servo's spring between finger and target: its stiffness as it is felt, and its energy as counted in the ledger.
 #pragma once
 
+#include <algorithm>
+
 #include "proxy/proxy_state.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
+
+/// N/m, above 0: what forces in N, N s/m and N/m at the hand are divided by to get lengths. K s of the last tick; of a
+/// surface without stiffness the least.
+inline double feltSpring_N_m(const ProxySettings& settings, const ProxyState& state) {
+  return settings.spring_N_m * std::max(state.stiffness, accuracy::kMinStiffness);
+}
 
 /// J, for a spring of stiffness K `spring_N_m` at the hand, reduced by the factor `stiffness` (0..1).
 /// `distance_squared_D`: squared length of the spring, m^2 at the hand.

@@ -79,6 +79,13 @@ inline double Surface::number(Quantity quantity) const {
   return quantity == Quantity::kHeight ? 0 : material_.*kMaterialNumbers[static_cast<std::size_t>(quantity)];
 }
 
+/// Of the quantities that no texture modulates and that are 0 by default (adhesion, compliance, strength): the value of
+/// this one on the surface of a primitive. RT-safe.
+inline double constantOf(const SceneAt& scene, const MaterialOverride& set, PrimitiveId id, Quantity quantity) {
+  if (scene.instance(id).plain && !set.number(static_cast<std::size_t>(quantity))) return 0;
+  return Surface(scene, set, id).plain(quantity);
+}
+
 inline SurfaceValue Surface::read(Quantity quantity) const {
   if (const auto& set = overridden(quantity)) return {*set};
   if (!textured(quantity)) return {number(quantity)};

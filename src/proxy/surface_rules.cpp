@@ -39,7 +39,9 @@ SurfaceRules::TouchedSet SurfaceRules::touchedNow(const ContactSet& set) const {
   return touched;
 }
 
-// Updates the contact points and shading normals for a proxy moved from `position` by `offset`.
+// Updates the contact points and shading normals for a proxy moved from `position` by `offset`. Far from a small
+// triangle, the direction from its nearest point to the proxy is no normal of the surface: the true normal stays that
+// of the plane.
 void SurfaceRules::moveOn(const ContactSet& set, const Vec3& position, const Vec3& offset, TouchedSet& touched) const {
   for (std::size_t i = 0; i < touched.size(); ++i) {
     Touched& now = touched[i];
@@ -47,7 +49,7 @@ void SurfaceRules::moveOn(const ContactSet& set, const Vec3& position, const Vec
     if (!now.patch.holds(now.moved)) {
       const PrimitiveId primitive = set.contacts[i].primitive;
       const ClosestPoint nearest = scene_.closest(primitive, position + offset);
-      now.patch = patchAt({primitive, nearest.normal, nearest.weights});
+      now.patch = patchAt({primitive, set.planes[i].normal, nearest.weights});
       now.patch_offset = offset;
       now.moved = Vec2::Zero();
     }
@@ -137,11 +139,29 @@ Vec3 SurfaceRules::resistedStep(FrictionOnWay resistance, const Vec3& way, doubl
   return slip(resistance, drag, way, before, proposal);
 }
 
-FrictionOnWay SurfaceRules::frictionOf(const TouchedSet& touched, const SolverResult& held) const {
-  FrictionOnWay resistance(settings_);
+// That of the contact whose normal is nearest; 0 for a surface without adhesion.
+double SurfaceRules::adhesionLoad_m(const Contact& contact) const {
+  if (!loads_ || loads_->empty() || !(surfaceOf(contact.primitive).plain(Quantity::kAdhesion) > 0)) return 0;
+  const auto along = [&](const AdhesionLoad& load) { return load.normal.dot(contact.plane.normal); };
+  const auto nearer = [&](const AdhesionLoad& a, const AdhesionLoad& b) { return along(a) < along(b); };
+  return std::max_element(loads_->begin(), loads_->end(), nearer)->load_m;
+}
+
+// Of what is no body that moves: 0.
+double SurfaceRules::mobilityOf_m_Ns(const Contact& contact) const {
+  const Instance& instance = scene_.instance(contact.primitive);
+  if (!instance.movesAsBody()) return 0;
+  const double mobility_kg = instance.body->poses->mobilityAcross(contact.point, contact.plane.normal);
+  return settings_.period_s * mobility_kg / settings_.world_per_device;
+}
+
+FrictionOnWay SurfaceRules::frictionOf(const ContactSet& set, const TouchedSet& touched,
+                                       const SolverResult& held) const {
+  FrictionOnWay resistance(settings_, felt_N_m_);
   for (std::size_t i = 0; i < held.active_count; ++i) {
     const Touched& by = touched[held.active[i]];
-    resistance.add(by.friction, by.patch, by.moved, held.multiplier[i]);
+    const double normal_m = held.multiplier[i] + adhesionLoad_m(set.contacts[held.active[i]]);
+    resistance.add(by.friction, by.patch, by.moved, normal_m, mobilityOf_m_Ns(set.contacts[held.active[i]]));
   }
   return resistance;
 }
@@ -199,7 +219,7 @@ void SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec
     proposal.may_raise_energy =
         proposal.may_raise_energy || any([](const Touched& now) { return now.shading_normal.differs(); });
     const Vec3 way = held.point - offset;
-    const Vec3 resisted = resisting ? resistedStep(frictionOf(touched, held), way, offset.norm(), proposal) : way;
+    const Vec3 resisted = resisting ? resistedStep(frictionOf(set, touched, held), way, offset.norm(), proposal) : way;
     const Vec3 goal = offset + resisted;
     proposal.held = way - resisted;
     proposal.step = toStep(set, goal, held, proposal);

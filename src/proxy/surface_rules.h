@@ -9,6 +9,7 @@
 #pragma once
 
 #include "base/vec.h"
+#include "proxy/adhesion_load.h"
 #include "proxy/contacts.h"
 #include "proxy/friction.h"
 #include "proxy/friction_on_way.h"
@@ -22,17 +23,25 @@
 
 namespace hl {
 
+/// What friction knows at the start of a tick.
+struct FrictionStart {
+  bool slipping = false;                 ///< the proxy slides
+  Vec3 presliding_m = Vec3::Zero();      ///< pre-sliding offset of the proxy from where it stuck, m
+  double felt_N_m = 1000;                ///< the spring, feltSpring_N_m()
+  const AdhesionLoads* loads = nullptr;  ///< or none
+};
+
 class SurfaceRules {
  public:
-  /// `slipping`: the proxy slides at the start of the tick. `presliding_m`: pre-sliding offset of the proxy from where
-  /// it stuck, m.
-  SurfaceRules(const SceneAt& scene, const ProxySettings& settings, const Tolerances& tolerance, bool slipping,
-               const Vec3& presliding_m)
+  SurfaceRules(const SceneAt& scene, const ProxySettings& settings, const Tolerances& tolerance,
+               const FrictionStart& start)
       : scene_(scene),
         settings_(settings),
         tolerance_(tolerance),
-        slipping_(slipping),
-        presliding_m_(presliding_m),
+        felt_N_m_(start.felt_N_m),
+        loads_(start.loads),
+        slipping_(start.slipping),
+        presliding_m_(start.presliding_m),
         as_default_(settings.surfaces.keepsDefault()) {}
 
   /// Whether a surface in contact has shading, a bump map or friction.
@@ -82,7 +91,9 @@ class SurfaceRules {
   Vec3 aboveTruePlanes(const ContactSet& set, const Vec3& goal) const;
   Vec3 secondPass(const ContactSet& set, const Vec3& goal) const;
   Vec3 toStep(const ContactSet& set, const Vec3& goal, const SolverResult& held, const Proposal& proposal) const;
-  FrictionOnWay frictionOf(const TouchedSet& touched, const SolverResult& held) const;
+  double mobilityOf_m_Ns(const Contact& contact) const;
+  FrictionOnWay frictionOf(const ContactSet& set, const TouchedSet& touched, const SolverResult& held) const;
+  double adhesionLoad_m(const Contact& contact) const;
   Vec3 resistedStep(FrictionOnWay resistance, const Vec3& way, double slipped_now, Proposal& proposal) const;
   void listActive(const TouchedSet& touched, const SolverResult& held, Proposal& proposal) const;
   bool slipsAtOnce(const TouchedSet& touched, const Proposal& proposal) const;
@@ -93,6 +104,8 @@ class SurfaceRules {
   const SceneAt& scene_;
   const ProxySettings& settings_;
   const Tolerances& tolerance_;
+  const double felt_N_m_;
+  const AdhesionLoads* const loads_;
   Slip slip_;
   bool slipping_;
   Vec3 presliding_m_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "proxy/curvature_step.h"
+#include "proxy/spring_energy.h"
 #include "proxy/yielding.h"
 
 namespace hl {
@@ -22,13 +23,15 @@ int outOfWork(const ProxyState& state, Ending ending) {
 
 }  // namespace
 
-Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger, int most_looks)
+Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger, int most_looks,
+           const AdhesionLoads* loads)
     : input_(scene, settings, finger),
       state_(state),
       goal_(finger),
       booking_(state, settings, finger),
-      rules_(scene, settings, input_.tolerance, state.touching && state.rest_s < accuracy::kStuck_s,
-             state.presliding_m),
+      rules_(scene, settings, input_.tolerance,
+             {state.touching && state.rest_s < accuracy::kStuck_s, state.presliding_m, feltSpring_N_m(settings, state),
+              loads}),
       constraints_(input_),
       walk_(input_, state.cache),
       work_(input_.scene, mostWork(settings, state), most_looks) {}

@@ -27,7 +27,9 @@ namespace hl {
 /// RT-safe.
 class Tick {
  public:
-  Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger, int most_looks);
+  /// `loads`: of surfaces that adhere; read while the tick runs.
+  Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger, int most_looks,
+       const AdhesionLoads* loads = nullptr);
 
   TickReport run();
 
@@ -59,8 +61,8 @@ class Tick {
   Trial trial_;
   Progress progress_;
   Work work_;
-  Proposal proposal_;                          // the current step
-  FixedVector<ActiveContact, 3> last_active_;  // active contacts of the last step that had any
+  Proposal proposal_;                                   // the current step
+  FixedVector<ActiveContact, kMaxActive> last_active_;  // active contacts of the last step that had any
 };
 
 }  // namespace hl

@@ -7,6 +7,7 @@
 
 #include "base/fixed_vector.h"
 #include "base/vec.h"
+#include "proxy/solver.h"
 #include "scene/recent_primitives.h"
 
 namespace hl {
@@ -19,9 +20,10 @@ struct ProxyContact {
   /// surface yields (yielding.h). Times K s: the normal force. Negative: the surface pulls.
   double multiplier_m;
   PrimitiveId primitive;
-  double stiffness;                        ///< s of the surface at this point, 0..1
-  double static_friction;                  ///< mu_s
-  bool rough;                              ///< friction or viscosity acts at this point
+  double stiffness;        ///< s of the surface at this point, 0..1
+  double static_friction;  ///< mu_s
+  /// It carries the proxy along the surface: friction or viscosity acts at this point, or the surface adheres.
+  bool holds_tangentially;
   std::array<double, 3> weights{1, 0, 0};  ///< barycentric weights of `point` for the primitive's sorted vertices
 };
 
@@ -40,7 +42,7 @@ enum class Ending : std::uint8_t {
   kUnplaced,    ///< no position clear of the scene found near the finger: no force
   kInvalid,     ///< the finger was not finite or beyond kFarthestFinger_m: nothing has changed
 };
-inline constexpr std::size_t kEndings = 12;
+inline constexpr std::size_t kEndings = static_cast<std::size_t>(Ending::kInvalid) + 1;
 inline constexpr std::array<const char*, kEndings> kEndingNames{"goes_on", "reached",     "stationary", "settled",
                                                                 "stalled", "postponed",   "no_energy",  "crowded",
                                                                 "capped",  "out_of_work", "unplaced",   "invalid"};
@@ -48,7 +50,7 @@ inline constexpr std::array<const char*, kEndings> kEndingNames{"goes_on", "reac
 constexpr const char* nameOf(Ending ending) { return kEndingNames[static_cast<std::size_t>(ending)]; }
 
 struct TickReport {
-  FixedVector<ProxyContact, 3> contacts;
+  FixedVector<ProxyContact, kMaxActive> contacts;
   Vec3 target =
       Vec3::Zero();  ///< where the servo pulls the finger: the rest of its spring, softened by the surface stiffness
   /// Of a proxy that a snap (snapping.h) or matter (matter_drag.h) holds: its part of rest of the spring - finger,
@@ -61,7 +63,13 @@ struct TickReport {
   std::size_t work = 0;  ///< cost of the tick, in bounding volumes (work.h)
   int looks = 0;         ///< number of times that contacts were gathered
   int used_up_at = 0;    ///< number of looks after which the work limit was reached; 0: not reached
+  bool stayed = false;   ///< no work was left while a surface held the proxy: it is where and as it was
   Ending ending = Ending::kGoesOn;
+  /// `earlier` looks of attempts whose result does not count were made before, in the same tick.
+  void addEarlierLooks(int earlier) {
+    looks += earlier;
+    if (used_up_at > 0) used_up_at += earlier;
+  }
   /// Stopped by the iteration cap before the local minimum, at a valid position.
   bool capped() const { return ending == Ending::kCapped; }
   bool placed() const { return ending != Ending::kUnplaced; }

@@ -1,11 +1,12 @@
-// Every number that tunes a tick, with its unit and its reason, in three groups:
+// The numbers that tune a tick, with their units and reasons, in three groups:
 //
 //   accuracy      changes where the proxy comes to rest
 //   convergence   changes the path to that point and the number of steps
 //   cost          changes only the computing time
 //
 // "Per" in a name says what a length scales with: the proxy radius, the gap to the finger, the size of the scene. Not
-// in this file: user settings (ProxySettings), capacities (kMaxContacts), and mathematical constants.
+// in this file: user settings (ProxySettings), capacities (kMaxContacts), mathematical constants, and how the
+// compliance of a mesh is estimated between ticks (compliance_estimate.cpp, follow_deformation.cpp).
 #pragma once
 
 #include <cmath>
@@ -68,6 +69,10 @@ inline constexpr double kCrease_rad = 0.01;
 /// s. A proxy that has not slipped for this time is stuck; before that it counts as sliding. The encoder of a slow
 /// finger does not change between two counts: 3 ms at 10 mm/s and 30 um.
 inline constexpr double kStuck_s = 0.020;
+/// A spring of a smaller part s of K is taken for this one where a force is divided by it.
+inline constexpr double kMinStiffness = 1e-6;
+/// Part of the radius by which the goal of a proxy that a surface holds is below the surface at most (adhesion.h).
+inline constexpr double kMaxLowered = 0.5;
 /// Maximum number of iterations for the slip that balances the Stribeck curve.
 inline constexpr int kSlipRounds = 60;
 /// Maximum number of iterations for the rest point on textured friction. Each at least halves the interval.
@@ -80,6 +85,12 @@ inline constexpr double kSamplesPerTexel = 2, kMaxSamples = 4096;
 /// Distance beyond the edge of a textured triangle, in proxy radii, at which its neighbour becomes the contact. The
 /// closest point of the previous triangle is then farther away by 1/2 (1e-4)^2 = 5e-9 radii, 50 times the skin.
 inline constexpr double kOverEdge = 1e-4;
+
+// Goals that count only if they add no energy: goal_tick.h.
+
+/// Far above the rounding of energies that are compared, far below what can be felt: a part of them, and J, what a
+/// spring of 1000 N/m has at 1 nm.
+inline constexpr double kEnergyRounding = 1e-12, kEnergyRounding_J = 1e-15;
 
 // What moves: rigid_sweep.h, pushed_proxy.h, push_out.h.
 
@@ -204,8 +215,10 @@ inline constexpr double kNearPerReach = 2;
 inline constexpr int kPushTries = 32;
 /// The same for each reduced clearance in a pinch.
 inline constexpr int kPinchedTries = 8;
+/// In reaches: distance of the places on the way out of matter (leave_matter.h); larger where that would be too many.
+inline constexpr double kSitePerReach = 0.5;
 /// Places on the way out of matter, and how many of them may be looked at for what is near.
-inline constexpr int kMostSites = 512, kMostClearances = 128;
+inline constexpr int kMaxSites = 512, kMaxClearances = 128;
 
 }  // namespace convergence
 

@@ -4,31 +4,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "proxy/energy_booking.h"
+#include "proxy/contact_parts.h"
+#include "proxy/mean_stiffness.h"
 #include "proxy/surface.h"
 
 namespace hl {
 
 namespace {
-
-using Shares = std::array<double, 3>;
-
-// Shares of the contacts in the part of e that is not along their normals; their sum is 1.
-Shares frictionShares(const FixedVector<ProxyContact, 3>& contacts) {
-  Shares shares{};
-  double sum = 0;
-  for (const bool by_friction : {true, false}) {
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const ProxyContact& contact = contacts[i];
-      shares[i] = std::max(0.0, contact.multiplier_m) * (by_friction ? contact.static_friction : 1.0);
-      sum += shares[i];
-    }
-    if (sum > 0) break;
-  }
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    shares[i] = sum > 0 ? shares[i] / sum : 1.0 / static_cast<double>(contacts.size());
-  return shares;
-}
 
 // How an object yields, told by its client or estimated.
 struct ObjectYielding {
@@ -50,11 +32,6 @@ ObjectYielding yieldingAt(const Instance& instance, std::int64_t time_ns, const 
   if (instance.compliance) return {instance.compliance->at(time_ns)};
   if (estimate.key != instance.key) return {};
   return {{estimate.compliance_m_N, estimate.compliance_m_N}, estimate.lift_m};
-}
-
-double ofMaterial_m_N(const SceneAt& scene, const ProxySettings& settings, PrimitiveId id) {
-  if (scene.instance(id).plain && !settings.surfaces.compliance_m_N) return 0;
-  return Surface(scene, settings.surfaces, id).plain(Quantity::kCompliance);
 }
 
 double cosineSquared(const Vec3& pull, const Vec3& normal) {
@@ -83,7 +60,7 @@ struct YieldingSpring {
 // The pull is the sum of those of the contacts, s_i (e_i + C_i F_ki), and s their mean; the rest of the spring is where
 // s gives this pull. Of one contact it is the proxy, displaced by C F_k.
 YieldingSpring springOf(const ProxyState& state, const SceneAt& scene, const ProxySettings& settings) {
-  const double spring_N_m = settings.spring_N_m / settings.world_per_device;
+  const double spring_N_m = settings.springInWorld_N_m();
   MeanStiffness mean;
   Vec3 whole_m = Vec3::Zero(), pull_m = Vec3::Zero(), lift_m = Vec3::Zero();
   for (const YieldingContact& contact : state.yielding) {
@@ -105,23 +82,13 @@ YieldingSpring springOf(const ProxyState& state, const SceneAt& scene, const Pro
 
 }  // namespace
 
-ContactParts partsOf(const FixedVector<ProxyContact, 3>& contacts, const Vec3& e) {
-  ContactParts parts;
-  Vec3 tangential = e;
-  for (const ProxyContact& contact : contacts) tangential -= contact.multiplier_m * contact.normal;
-  const Shares shares = frictionShares(contacts);
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    parts[i] = contacts[i].multiplier_m * contacts[i].normal + shares[i] * tangential;
-  return parts;
-}
-
 double yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
                          const ProxyContact& contact, const Vec3& e) {
   const ObjectYielding object = yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate);
-  const double compliance_m_N =
-      ofMaterial_m_N(scene, settings, contact.primitive) + object.compliance_m_N(cosineSquared(e, contact.normal));
+  const double compliance_m_N = constantOf(scene, settings.surfaces, contact.primitive, Quantity::kCompliance) +
+                                object.compliance_m_N(cosineSquared(e, contact.normal));
   if (!(compliance_m_N > 0)) return contact.stiffness;
-  const double spring_N_m = settings.spring_N_m / settings.world_per_device * contact.stiffness;
+  const double spring_N_m = settings.springInWorld_N_m() * contact.stiffness;
   return contact.stiffness * keptOf(spring_N_m, compliance_m_N);
 }
 
@@ -142,15 +109,15 @@ void rememberYielding(ProxyState& state, const SceneAt& scene, const ProxySettin
   const auto yields = [&](const ProxyContact& contact) {
     const Instance& instance = scene.instance(contact.primitive);
     return instance.compliance || state.estimate.key == instance.key ||
-           ofMaterial_m_N(scene, settings, contact.primitive) > 0;
+           constantOf(scene, settings.surfaces, contact.primitive, Quantity::kCompliance) > 0;
   };
   if (std::none_of(report.contacts.begin(), report.contacts.end(), yields)) return;
   const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const ProxyContact& contact = report.contacts[i];
     state.yielding.push({scene.instance(contact.primitive).key, contact.stiffness,
-                         ofMaterial_m_N(scene, settings, contact.primitive), contact.multiplier_m,
-                         cosineSquared(parts[i], contact.normal), parts[i], contact.normal});
+                         constantOf(scene, settings.surfaces, contact.primitive, Quantity::kCompliance),
+                         contact.multiplier_m, cosineSquared(parts[i], contact.normal), parts[i], contact.normal});
   }
   if (state.yielding.size() > 1) addParts(-state.rest_offset_m, state.yielding);
   state.yielding_stiffness = springOf(state, scene, settings).stiffness;

@@ -11,19 +11,11 @@
 // 1/2 K s |rest - finger|^2 is the energy of both springs. Of several contacts each yields to its own part of the pull.
 #pragma once
 
-#include <array>
-
 #include "proxy/proxy_state.h"
 #include "proxy/tick_report.h"
 #include "scene/scene_at.h"
 
 namespace hl {
-
-/// World frame. `e`: rest of the spring - finger. The parts of it that the contacts hold; their sum is e, unless there
-/// is no contact: along each normal by its multiplier; the rest, which friction holds, in proportion to mu_i lambda_i,
-/// or to lambda_i if no contact has friction. Times K s they are the forces of the contacts on the hand. RT-safe.
-using ContactParts = std::array<Vec3, 3>;
-ContactParts partsOf(const FixedVector<ProxyContact, 3>& contacts, const Vec3& e);
 
 /// Stiffness s of a contact, of which the whole pull is along `e`. RT-safe.
 double yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,

@@ -24,7 +24,7 @@ constexpr double kAfter_s = 0.2;
 // From one checkpoint to the next.
 constexpr std::int64_t kBetween_ns = 1'000'000'000;
 // The loops go on while a scene is written.
-constexpr std::size_t kMostPrimitives = 1'000'000;
+constexpr std::size_t kMaxPrimitives = 1'000'000;
 constexpr const char* kPrefix = "fault-";
 constexpr const char* kEnding = ".hlr";
 
@@ -50,7 +50,7 @@ std::string blackBoxName(const std::string& device) {
 // The blocks of a scene that can be recorded; none of one that cannot.
 std::vector<proto::RecordingBlock> blocksOf(const Snapshot& scene) {
   std::vector<proto::RecordingBlock> blocks;
-  if (scene.primitives > kMostPrimitives) return blocks;
+  if (scene.primitives > kMaxPrimitives) return blocks;
   try {
     SceneWriter().write(scene, [&](const proto::RecordingBlock& block) { blocks.push_back(block); });
   } catch (const Error&) {

@@ -4,15 +4,15 @@
 
 #include <utility>
 
+#include "base/clock.h"
+
 namespace hl {
 
 namespace {
 
 using Phase = PageRecordingStatus::Phase;
 
-bool isPast(std::int64_t since_ns, double limit_s, std::int64_t now_ns) {
-  return 1e-9 * static_cast<double>(now_ns - since_ns) > limit_s;
-}
+bool isPast(std::int64_t since_ns, double limit_s, std::int64_t now_ns) { return seconds(now_ns - since_ns) > limit_s; }
 
 }  // namespace
 

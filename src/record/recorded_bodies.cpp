@@ -14,7 +14,7 @@ namespace hl {
 namespace {
 
 constexpr const char* kWhat = "the memory of the bodies";
-constexpr double kMostOfBodies = 1e15;  // of any number in it
+constexpr double kMaxOfBodies = 1e15;  // of any number in it
 
 struct BodiesTotals {
   std::uint64_t steps = 0;
@@ -45,7 +45,7 @@ void readList(const proto::Values& in, const Take& take) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::span its_numbers = std::span(all.numbers).subspan(i * numbers, numbers);
     const std::span its_integers = std::span(all.integers).subspan(i * integers, integers);
-    for (const double number : its_numbers) checkRanges(kWhat, {{"a number", number, -kMostOfBodies, kMostOfBodies}});
+    for (const double number : its_numbers) checkRanges(kWhat, {{"a number", number, -kMaxOfBodies, kMaxOfBodies}});
     Item item;
     requireFit(setFrom({{its_numbers.begin(), its_numbers.end()}, {its_integers.begin(), its_integers.end()}}, item),
                kWhat);
@@ -53,8 +53,8 @@ void readList(const proto::Values& in, const Take& take) {
   }
 }
 
-template <typename Item, std::size_t kMost>
-void readFixed(const proto::Values& in, FixedVector<Item, kMost>& items) {
+template <typename Item, std::size_t kMax>
+void readFixed(const proto::Values& in, FixedVector<Item, kMax>& items) {
   readList<Item>(in, [&](const Item& item) {
     if (!items.push(item)) throw Error(std::string(kWhat) + " makes no sense: it holds too much");
   });
@@ -71,7 +71,7 @@ void readContacts(const proto::Values& in, std::size_t bodies, ContactMemory& co
 void checkTurned(const BodyState& state) {
   constexpr double kUnitLength = 1e-6;  // of a quaternion, which is computed
   checkRanges(kWhat, {{"a quaternion's length", state.turned.norm(), 1 - kUnitLength, 1 + kUnitLength},
-                      {"stopped_short", static_cast<double>(state.stopped_short), 0, kMostOfBodies}});
+                      {"stopped_short", static_cast<double>(state.stopped_short), 0, kMaxOfBodies}});
 }
 
 }  // namespace

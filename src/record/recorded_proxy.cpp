@@ -22,7 +22,7 @@ struct MemoryValues {
   Ledger ledger;
   int out_of_work = 0, start = 0;
   FadingPull fading;
-  ServoTarget told;
+  ServoTarget last_target;
   std::uint64_t restarts = 0;
 };
 
@@ -34,73 +34,83 @@ struct YieldingValues {
 };
 
 constexpr double kMaxMemory = 1e12;  // joules, seconds, metres: far beyond any session
+constexpr const char* kMemory = "the memory of the proxy";
+constexpr const char* kYieldingContact = "a contact that yields";
+constexpr const char* kYielding = "how the proxy's spring yields";
+constexpr const char* kEstimate = "the estimate of the compliance";
 
-void checkVector(const char* name, const Vec3& v) {
-  for (int i = 0; i < 3; ++i) checkRanges("the memory of the proxy", {{name, v[i], -kMaxMemory, kMaxMemory}});
+void checkVector(const char* what, const char* name, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) checkRanges(what, {{name, v[i], -kMaxMemory, kMaxMemory}});
+}
+
+void checkLastTarget(const ServoTarget& in) {
+  constexpr const char* kLastTarget = "the last target before the recording";
+  checkVector(kLastTarget, "proxy_D", in.proxy_D);
+  checkVector(kLastTarget, "field_N", in.field_N);
+  checkTime(in.time_ns, kLastTarget);
+  checkRanges(kLastTarget, {{"stiffness", in.stiffness, 0, 1},
+                            {"paid_J", in.paid_J, -kMaxMemory, kMaxMemory},
+                            {"field_drag_Ns_m", in.field_drag_Ns_m, 0, kMaxMemory}});
 }
 
 void checkMemory(const MemoryValues& in) {
-  checkVector("position", in.position);
-  checkVector("presliding_m", in.presliding_m);
-  checkVector("offset", in.fading.offset);
-  checkVector("proxy_D", in.told.proxy_D);
-  checkVector("field_N", in.told.field_N);
+  checkVector(kMemory, "position", in.position);
+  checkVector(kMemory, "presliding_m", in.presliding_m);
+  checkVector(kMemory, "offset", in.fading.offset);
   checkTime(in.time_ns, "the last tick before the recording");
-  checkTime(in.told.time_ns, "the last target before the recording");
-  checkRanges("the memory of the proxy",
-              {{"rest_s", in.rest_s, 0, kMaxMemory},
-               {"stiffness", in.stiffness, 0, 1},
-               {"out_of_work", static_cast<double>(in.out_of_work), 0, std::numeric_limits<int>::max()},
-               {"start", static_cast<double>(in.start), 0, static_cast<double>(StartSearch::kPlaces - 1)},
-               {"duration_s", in.fading.duration_s, in.fading.left_s, kMaxMemory},
-               {"left_s", in.fading.left_s, 0, kMaxMemory},
-               {"told.stiffness", in.told.stiffness, 0, 1},
-               {"told.paid_J", in.told.paid_J, -kMaxMemory, kMaxMemory},
-               {"told.field_drag_Ns_m", in.told.field_drag_Ns_m, 0, kMaxMemory},
-               {"tank_J", in.ledger.tank_J, 0, kMaxMemory},
-               {"injected_J", in.ledger.injected_J, -kMaxMemory, kMaxMemory},
-               {"dissipated_J", in.ledger.dissipated_J, -kMaxMemory, kMaxMemory}});
+  checkRanges(kMemory, {{"rest_s", in.rest_s, 0, kMaxMemory},
+                        {"stiffness", in.stiffness, 0, 1},
+                        {"out_of_work", static_cast<double>(in.out_of_work), 0, std::numeric_limits<int>::max()},
+                        {"start", static_cast<double>(in.start), 0, static_cast<double>(StartSearch::kPlaces - 1)},
+                        {"duration_s", in.fading.duration_s, in.fading.left_s, kMaxMemory},
+                        {"left_s", in.fading.left_s, 0, kMaxMemory},
+                        {"tank_J", in.ledger.tank_J, 0, kMaxMemory},
+                        {"injected_J", in.ledger.injected_J, -kMaxMemory, kMaxMemory},
+                        {"dissipated_J", in.ledger.dissipated_J, -kMaxMemory, kMaxMemory}});
   for (const double joules : in.ledger.by_cause_J)
-    checkRanges("the memory of the proxy", {{"by_cause_J", joules, -kMaxMemory, kMaxMemory}});
+    checkRanges(kMemory, {{"by_cause_J", joules, -kMaxMemory, kMaxMemory}});
+  checkLastTarget(in.last_target);
 }
 
 void checkYielding(const YieldingContact& in) {
-  checkVector("part_m", in.part_m);
-  checkVector("normal", in.normal);
-  checkRanges("a contact that yields", {{"stiffness", in.stiffness, 0, 1},
-                                        {"material_m_N", in.material_m_N, 0, kMaxMemory},
-                                        {"multiplier_m", in.multiplier_m, -kMaxMemory, kMaxMemory},
-                                        {"along", in.along, 0, 1}});
+  checkVector(kYieldingContact, "part_m", in.part_m);
+  checkVector(kYieldingContact, "normal", in.normal);
+  checkRanges(kYieldingContact, {{"stiffness", in.stiffness, 0, 1},
+                                 {"material_m_N", in.material_m_N, 0, kMaxMemory},
+                                 {"multiplier_m", in.multiplier_m, -kMaxMemory, kMaxMemory},
+                                 {"along", in.along, 0, 1}});
 }
 
 void checkEstimate(const ComplianceEstimate& in) {
-  for (const Vec3* v : {&in.lift_m, &in.normal, &in.force_N}) checkVector("estimate", *v);
-  checkRanges("the estimate of the compliance", {{"compliance_m_N", in.compliance_m_N, 0, kMaxMemory},
-                                                 {"moved_m", in.moved_m, -kMaxMemory, kMaxMemory},
-                                                 {"sum_N", in.sum_N, -kMaxMemory, kMaxMemory},
-                                                 {"ticks", static_cast<double>(in.ticks), 0, kMaxMemory},
-                                                 {"frame_s", in.frame_s, 0, kMaxMemory}});
-  for (const double weight : in.weights) checkRanges("the estimate", {{"weights", weight, -kMaxMemory, kMaxMemory}});
+  checkVector(kEstimate, "lift_m", in.lift_m);
+  checkVector(kEstimate, "normal", in.normal);
+  checkVector(kEstimate, "force_N", in.force_N);
+  checkRanges(kEstimate, {{"compliance_m_N", in.compliance_m_N, 0, kMaxMemory},
+                          {"moved_m", in.moved_m, -kMaxMemory, kMaxMemory},
+                          {"sum_N", in.sum_N, -kMaxMemory, kMaxMemory},
+                          {"ticks", static_cast<double>(in.ticks), 0, kMaxMemory},
+                          {"frame_s", in.frame_s, 0, kMaxMemory}});
+  for (const double weight : in.weights) checkRanges(kEstimate, {{"weights", weight, -kMaxMemory, kMaxMemory}});
   for (std::size_t i = 0; i < ComplianceEstimate::kFrames; ++i) {
-    checkRanges("the estimate of the compliance", {{"moves_m", in.moves_m[i], -kMaxMemory, kMaxMemory},
-                                                   {"means_N", in.means_N[i], -kMaxMemory, kMaxMemory},
-                                                   {"lasts_N", in.lasts_N[i], -kMaxMemory, kMaxMemory}});
+    checkRanges(kEstimate, {{"moves_m", in.moves_m[i], -kMaxMemory, kMaxMemory},
+                            {"means_N", in.means_N[i], -kMaxMemory, kMaxMemory},
+                            {"lasts_N", in.lasts_N[i], -kMaxMemory, kMaxMemory}});
   }
 }
 
 void readYielding(const proto::RecordedProxy& in, ProxyState& state) {
   if (!in.has_yielding()) return;
   YieldingValues values;
-  readValues(in.yielding(), "how the proxy's spring yields", values);
-  checkVector("rest_offset_m", values.rest_offset_m);
+  readValues(in.yielding(), kYielding, values);
+  checkVector(kYielding, "rest_offset_m", values.rest_offset_m);
   checkEstimate(values.estimate);
-  checkRanges("how the proxy's spring yields", {{"stiffness", values.stiffness, 0, 1}});
+  checkRanges(kYielding, {{"stiffness", values.stiffness, 0, 1}});
   state.rest_offset_m = values.rest_offset_m;
   state.yielding_stiffness = values.stiffness;
   state.estimate = values.estimate;
   for (const proto::Values& one : in.yielding_contacts()) {
     YieldingContact contact;
-    readValues(one, "a contact that yields", contact);
+    readValues(one, kYieldingContact, contact);
     checkYielding(contact);
     if (!state.yielding.push(contact)) throw Error("the contacts that yield make no sense: there are too many");
   }
@@ -112,7 +122,7 @@ AdheringContacts adheringOf(const proto::RecordedProxy& in) {
   AdheringContacts adhering;
   const int count = in.adhering_size() / kNumbersEach;
   if (in.adhering_size() % kNumbersEach != 0 || static_cast<std::size_t>(count) > AdheringContacts::capacity())
-    throw Error("the contacts that hold the proxy make no sense");
+    throw Error("the contacts that hold the proxy make no sense: they are not of four numbers each, or too many");
   for (int i = 0; i < count; ++i) {
     const double* const values = in.adhering().data() + static_cast<std::ptrdiff_t>(kNumbersEach) * i;
     const AdheringContact contact{{values[0], values[1], values[2]}, values[3]};
@@ -123,10 +133,12 @@ AdheringContacts adheringOf(const proto::RecordedProxy& in) {
   return adhering;
 }
 
-PiercedObjects keysOf(const google::protobuf::RepeatedField<std::uint64_t>& in) {
-  PiercedObjects keys;
+// FixedVectors of keys. `what` is for errors.
+template <typename Keys>
+Keys keysOf(const google::protobuf::RepeatedField<std::uint64_t>& in, const std::string& what) {
+  Keys keys;
   for (const std::uint64_t key : in) {
-    if (!keys.push(key)) throw Error("the objects that let the proxy through make no sense: there are too many");
+    if (!keys.push(key)) throw Error(what + " make no sense: there are too many");
   }
   return keys;
 }
@@ -135,10 +147,10 @@ PiercedObjects keysOf(const google::protobuf::RepeatedField<std::uint64_t>& in) 
 
 void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
   const ProxyState& state = memory.state;
-  const MemoryValues values{state.position,     state.free,      state.touching, state.rest_s,
-                            state.presliding_m, state.stiffness, state.time_ns,  state.snapshot,
-                            state.carrier,      state.snap,      state.ledger,   state.out_of_work,
-                            state.start.next(), memory.fading,   memory.told,    memory.restarts};
+  const MemoryValues values{state.position,     state.free,      state.touching,     state.rest_s,
+                            state.presliding_m, state.stiffness, state.time_ns,      state.snapshot,
+                            state.carrier,      state.snap,      state.ledger,       state.out_of_work,
+                            state.start.next(), memory.fading,   memory.last_target, memory.restarts};
   toProto(valuesOf(values), *out.mutable_memory());
   for (const AdheringContact& contact : state.adhering) {
     add(*out.mutable_adhering(), contact.normal);
@@ -153,7 +165,7 @@ void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
 
 ProxyMemory fromProto(const proto::RecordedProxy& in) {
   MemoryValues values;
-  readValues(in.memory(), "the memory of the proxy", values);
+  readValues(in.memory(), kMemory, values);
   checkMemory(values);
   ProxyMemory memory;
   ProxyState& state = memory.state;
@@ -168,14 +180,14 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.carrier = values.carrier;
   state.snap = values.snap;
   state.adhering = adheringOf(in);
-  state.pierced = keysOf(in.pierced());
-  state.within = keysOf(in.within());
+  state.pierced = keysOf<PiercedObjects>(in.pierced(), "the objects that let the proxy through");
+  state.within = keysOf<MatterObjects>(in.within(), "the objects in whose matter the proxy is");
   readYielding(in, state);
   state.ledger = values.ledger;
   state.out_of_work = values.out_of_work;
   state.start = StartSearch(values.start);
   memory.fading = values.fading;
-  memory.told = values.told;
+  memory.last_target = values.last_target;
   memory.restarts = values.restarts;
   return memory;
 }

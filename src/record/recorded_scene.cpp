@@ -344,7 +344,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     setBody(placed.body(), instances.back());
     bodies += instances.back().movesAsBody() ? 1 : 0;
   }
-  if (bodies > kMostBodies) throw Error(kBrokenScene);
+  if (bodies > kMaxBodies) throw Error(kBrokenScene);
   return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns(),
                       in.has_mechanics() ? mechanicsOf(in.mechanics()) : Mechanics{});
 }

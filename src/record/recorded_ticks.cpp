@@ -84,12 +84,11 @@ void addBodyCommands(std::span<const TickRecord> records, proto::ProxyTicks& out
 // Throws hl::Error for what no client can say.
 BodyCommand bodyCommandOf(const proto::ValuesChange& in) {
   constexpr const char* kCommand = "what is done to a body";
-  constexpr double kMost = 1e15;
+  constexpr double kMax = 1e15;
   CommandParts parts;
   readValues(in.values(), kCommand, parts);
-  for (const double number : fromProto(in.values()).numbers)
-    checkRanges(kCommand, {{"a number", number, -kMost, kMost}});
-  checkRanges(kCommand, {{"duration_s", parts.duration_s, 0, kMost}});
+  for (const double number : fromProto(in.values()).numbers) checkRanges(kCommand, {{"a number", number, -kMax, kMax}});
+  checkRanges(kCommand, {{"duration_s", parts.duration_s, 0, kMax}});
   checkRecorded(Pose{parts.rotation, Vec3::Zero()}, kCommand);
   return parts.command();
 }
@@ -184,7 +183,7 @@ std::vector<TickRecord> fromProto(const proto::ProxyTicks& in) {
   std::int64_t before_ns = 0;
   for (int i = 0, change = 0; i < in.time_ns_size(); ++i) {
     if (change < in.commands_size() && in.commands(change).at() == static_cast<std::uint32_t>(i)) {
-      readValues(in.commands(change++).values(), "what ticks are told", context, laterOfOverride(0, 0));
+      readValues(in.commands(change++).values(), "the settings of a tick", context, laterOfOverride(0, 0));
       checkRecorded(context);
     }
     if (i == in.time_ns_size() - 1 && change != in.commands_size()) throw Error(kTicksMisfit);

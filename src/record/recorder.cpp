@@ -65,11 +65,10 @@ void Recorder::start() {
 void Recorder::stop() {
   {
     const std::lock_guard lock(mutex_);
-    if (!running_) return;
     running_ = false;
   }
   wake_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void Recorder::step(const ServoRecord& record) noexcept {
@@ -198,7 +197,7 @@ void Recorder::beginForPage(std::uint32_t page) {
 
 bool Recorder::captured(std::int64_t now_ns) {
   constexpr double kMaxWait_s = 2;
-  if (1e-9 * static_cast<double>(now_ns - capture_.wanted_ns) > kMaxWait_s)
+  if (seconds(now_ns - capture_.wanted_ns) > kMaxWait_s)
     throw Error("the loops make no ticks now, or the scene changes all the time: try again later");
   const MemoryCapture::State state = capture_.memory.stateAmong(ticks_);
   if (state == MemoryCapture::State::kWaiting) return false;
@@ -209,9 +208,9 @@ bool Recorder::captured(std::int64_t now_ns) {
 
 void Recorder::openForPage(std::uint32_t page) {
   // Each primitive takes a few indices, and a share of the vertices: no fewer bytes than this.
-  constexpr std::uint64_t kLeast_bytes = 8;
+  constexpr std::uint64_t kMin_bytes = 8;
   capture_.wanted_ns = 0;
-  if (scenes_.next()->primitives * kLeast_bytes > PageRecordings::kMaxBytes)
+  if (scenes_.next()->primitives * kMin_bytes > PageRecordings::kMaxBytes)
     throw Error("the scene is too large for a recording by the page: use hl record");
   scene_writer_ = SceneWriter();
   begin_ = {unixNow_ms(), monotonicNow_ns()};
@@ -238,7 +237,7 @@ void Recorder::endForPage() {
 }
 
 void Recorder::tellPages() {
-  const double time_s = 1e-9 * static_cast<double>(monotonicNow_ns() - begin_.monotonic_ns);
+  const double time_s = seconds(monotonicNow_ns() - begin_.monotonic_ns);
   settings_.pages->tell(time_s, file_->bytes());
   if (file_->bytes() > PageRecordings::kMaxBytes)
     endRecording(fmt::format("{} MB are reached", PageRecordings::kMaxBytes / 1'000'000));

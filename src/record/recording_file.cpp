@@ -15,6 +15,7 @@
 
 #include "base/descriptor_bytes.h"
 #include "base/error.h"
+#include "base/plain_file.h"
 
 namespace hl {
 
@@ -90,6 +91,7 @@ void RecordingWriter::write(const proto::RecordingBlock& block) {
 }
 
 RecordingReader::RecordingReader(const std::string& path) : in_(path, std::ios::binary) {
+  checkPlainFile(path);
   std::error_code error;
   left_ = std::filesystem::file_size(path, error);
   if (!in_ || error) throw Error(path + ": can not be read");

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "record/open_file.h"
+#include "record/private_file.h"
 
 namespace hl {
 

@@ -127,7 +127,7 @@ class SessionReplay {
   static Among stateOf(const std::vector<ReplayedFile*>& files) {
     const proto::RecordingStart& start = files.front()->start();
     if (start.device_label().empty()) return Among::kNobody;
-    const bool all = files.size() > 1 && files.size() == start.devices() && files.size() <= kMostHands;
+    const bool all = files.size() > 1 && files.size() == start.devices() && files.size() <= kMaxHands;
     return all ? Among::kAll : Among::kUnknown;
   }
 
@@ -166,7 +166,7 @@ class SessionReplay {
     world_->show(
         identity, [] {}, [this] { world_->slot().take(); });
     const Snapshot& scene = world_->slot().take();
-    FixedVector<HandInStep, kMostHands> hands;
+    FixedVector<HandInStep, kMaxHands> hands;
     for (std::size_t i = 0; i < hands_.size(); ++i) {
       HandInStep hand;
       if (ticks[i] != nullptr) {

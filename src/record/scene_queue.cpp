@@ -60,12 +60,12 @@ std::shared_ptr<const Snapshot> SceneQueue::beginAt(std::uint64_t identity) {
 }
 
 void SceneQueue::forgetBefore(std::optional<std::uint64_t> identity) {
-  constexpr std::size_t kMost = 2;  // the one that the loops are in, and the one that they have not taken yet
+  constexpr std::size_t kMax = 2;  // the one that the loops are in, and the one that they have not taken yet
   const std::lock_guard lock(mutex_);
   written_ = 0;
   const auto used = identity ? find(*identity) : scenes_.end();
   if (used != scenes_.end()) scenes_.erase(scenes_.begin(), used);
-  while (scenes_.size() > kMost) scenes_.pop_front();
+  while (scenes_.size() > kMax) scenes_.pop_front();
 }
 
 std::deque<std::shared_ptr<const Snapshot>>::iterator SceneQueue::find(std::uint64_t identity) {

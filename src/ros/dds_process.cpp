@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "base/clock.h"
@@ -63,16 +64,21 @@ bool waitForEnd(pid_t id, int most_ms) {
 
 }  // namespace
 
-DdsProcess::DdsProcess(const DdsProgram& program, const std::vector<std::string>& words) {
-  const std::string file = readingProgram(program.name, program.absent);
+DdsProcess::DdsProcess(const DdsProgram& program, const std::vector<std::string>& words)
+    : program_(program), words_(words) {
+  start();
+}
+
+void DdsProcess::start() {
+  const std::string file = readingProgram(program_.name, program_.absent);
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
-    throw Error(std::string("no socket to ") + program.name + ": " + std::strerror(errno));
+    throw Error(std::string("no socket to ") + program_.name + ": " + std::strerror(errno));
   socket_ = ends[0];
   try {
-    id_ = startProgram(program, file, words, ends[1]);
+    id_ = startProgram(program_, file, words_, ends[1]);
     close(ends[1]);
-    waitUntilReady(program);
+    waitUntilReady();
   } catch (...) {
     if (id_ == 0) close(ends[1]);
     end();
@@ -80,18 +86,30 @@ DdsProcess::DdsProcess(const DdsProgram& program, const std::vector<std::string>
   }
 }
 
-void DdsProcess::waitUntilReady(const DdsProgram& program) const {
-  if (!readableWithin(socket_, kStart_ms)) throw Error(std::string(program.name) + " does not get ready");
+bool DdsProcess::startAgain() {
+  end();
+  try {
+    start();
+    ended_ = false;
+  } catch (const Error&) {
+    ended_ = true;  // what it lacks it has said itself
+  }
+  return !ended_;
+}
+
+void DdsProcess::waitUntilReady() const {
+  if (!readableWithin(socket_, kStart_ms)) throw Error(std::string(program_.name) + " does not get ready");
   DdsReady ready;
   if (recv(socket_, &ready, sizeof ready, MSG_DONTWAIT) != sizeof ready)
-    throw Error(std::string(program.name) + " cannot serve: it has said why");
+    throw Error(std::string(program_.name) + " cannot serve: it has said why");
 }
 
 void DdsProcess::end() {
-  close(socket_);
-  if (id_ == 0 || waitForEnd(id_, kEnd_ms)) return;
-  kill(id_, SIGKILL);
-  waitpid(id_, nullptr, 0);
+  if (socket_ >= 0) close(std::exchange(socket_, -1));
+  const pid_t id = std::exchange(id_, 0);
+  if (id == 0 || waitForEnd(id, kEnd_ms)) return;
+  kill(id, SIGKILL);
+  waitpid(id, nullptr, 0);
 }
 
 void DdsProcess::wait(std::int64_t most_ns) const {

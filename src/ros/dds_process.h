@@ -19,7 +19,7 @@ struct DdsProgram {
   const char* absent;  ///< told where it is not
 };
 
-/// Ends with this object. One thread at a time; nothing but wait() waits.
+/// Ends with this object. One thread at a time; after the start nothing but wait() and startAgain() waits.
 class DdsProcess {
  public:
   /// Returns when others can find what it serves. Throws hl::Error, with what to do, when the program is not there or
@@ -31,6 +31,8 @@ class DdsProcess {
 
   /// Until there is a packet, or the program has ended; `most_ns` at most.
   void wait(std::int64_t most_ns) const;
+  /// After its end, with the same words, as the constructor. False: it cannot serve now.
+  bool startAgain();
   /// False: the program is behind, or has ended.
   bool send(std::span<const char> packet) const;
   /// The next one that has come, in `buffer`; one that is longer is cut.
@@ -38,9 +40,12 @@ class DdsProcess {
   bool ended() const { return ended_; }
 
  private:
-  void waitUntilReady(const DdsProgram& program) const;
+  void start();
+  void waitUntilReady() const;
   void end();
 
+  const DdsProgram program_;
+  const std::vector<std::string> words_;
   int socket_ = -1;
   pid_t id_ = 0;
   bool ended_ = false;

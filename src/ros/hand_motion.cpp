@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/clock.h"
 #include "base/fixed_vector.h"
 
 namespace hl {
@@ -29,9 +30,7 @@ LastMoments lastMoments(const LogRing<ServoMoment>& moments) {
 Vec3 slopeOf(const LastMoments& last) {
   double mean_s = 0;
   Vec3 mean = Vec3::Zero();
-  const auto time_s = [&](const ServoMoment& moment) {
-    return 1e-9 * static_cast<double>(moment.time_ns - last[0].time_ns);
-  };
+  const auto time_s = [&](const ServoMoment& moment) { return seconds(moment.time_ns - last[0].time_ns); };
   const double count = static_cast<double>(last.size());
   for (const ServoMoment& moment : last) {
     mean_s += time_s(moment) / count;

@@ -9,10 +9,9 @@
 #include <array>
 #include <cstdint>
 #include <ctime>
-#include <fstream>
-#include <iterator>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 
 namespace hl {
 
@@ -110,15 +109,14 @@ Certificate makeCertificate(EVP_PKEY& key, const std::string& name, const Author
 }
 
 std::string textOfKeyFile(const std::filesystem::path& file) {
-  constexpr std::uintmax_t kMostBytes = 1U << 20U;
+  constexpr std::uintmax_t kMaxBytes = 1U << 20U;
   const std::string name = file.string();
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     throw Error("there is no file " + name + ": hl keys makes folders with all that is needed");
-  if (std::filesystem::file_size(file, error) > kMostBytes || error) throw Error(name + " is too large for keys");
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in.good() || text.empty()) throw Error(name + " cannot be read, or is empty");
+  if (std::filesystem::file_size(file, error) > kMaxBytes || error) throw Error(name + " is too large for keys");
+  std::string text = contentOf(name).value_or("");
+  if (text.empty()) throw Error(name + " cannot be read, or is empty");
   return text;
 }
 

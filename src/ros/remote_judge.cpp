@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/clock.h"
 #include "ros/command_values.h"
 
 namespace hl {
@@ -47,7 +48,7 @@ CommandVerdict RemoteJudge::judge(const HandCommand& command, std::int64_t now_n
 
 void RemoteJudge::takeTotal(Sender& sender, double total_J, std::int64_t arrived_ns, bool anew) {
   const double grown_J = anew ? 0 : std::max(0.0, total_J - sender.total_J);
-  const double since_s = 1e-9 * static_cast<double>(arrived_ns - sender.last_ns);
+  const double since_s = seconds(arrived_ns - sender.last_ns);
   const double most_J = anew ? 0 : std::max(0.0, since_s) * device_.force_max_N * device_.velocity_max_m_s;
   input_.given_up_J += std::min(settings_.jouleScale() * grown_J, most_J);
   sender.total_J = anew ? total_J : std::max(sender.total_J, total_J);

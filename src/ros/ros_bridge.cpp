@@ -6,7 +6,6 @@
 #include <cctype>
 
 #include "base/clock.h"
-#include "base/guarded_thread.h"
 #include "ros/hand_motion.h"
 
 namespace hl {
@@ -68,13 +67,11 @@ RosBridge::RosBridge(std::unique_ptr<RosLink> link, const std::vector<TouchSessi
 }
 
 void RosBridge::start() {
-  running_ = true;
-  thread_ = startThread("ros", [this] { run(); });
+  thread_.start("ros", [this] { run(); });
 }
 
 void RosBridge::stop() {
-  if (!running_.exchange(false)) return;
-  thread_.join();
+  if (!thread_.stop()) return;
   for (const Hand& hand : hands_) {
     hand.session->pull({});
     if (hand.leading) hand.session->setRemote({});
@@ -83,18 +80,32 @@ void RosBridge::stop() {
 
 void RosBridge::run() {
   std::int64_t next_ns = monotonicNow_ns();
-  while (running_) {
+  while (thread_.running()) {
     link_->wait(std::min(next_ns - monotonicNow_ns(), kLongestWait_ns));
     takeCommands();
-    if (link_->ended()) break;
+    if (link_->ended()) startAgain();
     const std::int64_t now_ns = monotonicNow_ns();
     if (now_ns < next_ns) continue;
     tellHands();
     // What could not be told in time is not told later.
     next_ns = std::max(next_ns + period_ns_, now_ns);
   }
+}
+
+void RosBridge::startAgain() {
   linked_ = false;
-  if (running_) tell_("hl-ros has ended: hands are no topics of ROS 2 any more, until the server is started again");
+  tell_("hl-ros has ended: hands are no topics of ROS 2 until it is there again");
+  while (thread_.running()) {
+    // Commands are looked at all the while, as hands are let go that wait for them.
+    pauses_.wait([this] {
+      takeCommands();
+      return thread_.running().load();
+    });
+    if (!thread_.running() || !link_->startAgain()) continue;
+    ++starts_;
+    linked_ = true;
+    return tell_("hl-ros is there again");
+  }
 }
 
 void RosBridge::takeCommands() {
@@ -168,7 +179,7 @@ void RosBridge::tellHands() {
 
 RosCounts RosBridge::counts() const {
   const std::lock_guard lock(teleop_mutex_);
-  return {linked_, states_, states_lost_, read(received_), read(verdicts_), ends_, teleop_};
+  return {linked_, states_, states_lost_, read(received_), read(verdicts_), ends_, starts_, teleop_};
 }
 
 }  // namespace hl

@@ -1,5 +1,6 @@
 // RosBridge: the hands of a server as topics of ROS 2, by hl-ros. One thread, "ros", tells hl-ros how the hands are, at
-// a fixed rate, and gives what comes for them to their servos. The servos never wait for it.
+// a fixed rate, and gives what comes for them to their servos. The servos never wait for it. When hl-ros ends by
+// itself, hands feel what they feel when commands stay away, and it is started again.
 #pragma once
 
 #include <array>
@@ -10,14 +11,15 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "base/guarded_thread.h"
 #include "ros/command_judge.h"
 #include "ros/hand_motion.h"
 #include "ros/remote_judge.h"
 #include "ros/ros_link.h"
 #include "ros/ros_task.h"
+#include "ros/start_pauses.h"
 #include "ros/teleop_clutch.h"
 #include "touch/touch_session.h"
 
@@ -36,7 +38,8 @@ struct RosCounts {
   std::uint64_t states_lost = 0;  ///< hl-ros was behind
   std::array<std::uint64_t, kRosInputs> received{};  ///< commands by RosInput
   std::array<std::uint64_t, static_cast<std::size_t>(CommandVerdict::kVerdicts)> verdicts{};
-  std::uint64_t ends = 0;  ///< times that a hand was let go, as no other command came in time
+  std::uint64_t ends = 0;    ///< times that a hand was let go, as no other command came in time
+  std::uint64_t starts = 0;  ///< times that hl-ros was started again
   std::optional<TeleopView> teleop{};
 };
 
@@ -81,6 +84,7 @@ class RosBridge {
   using Count = std::atomic<std::uint64_t>;
 
   void run();
+  void startAgain();
   void takeCommands();
   CommandVerdict take(Hand& hand, const HandCommand& command);
   void tellHands();
@@ -94,11 +98,12 @@ class RosBridge {
   const TellPerson tell_;
   std::array<Count, kRosInputs> received_{};
   std::array<Count, static_cast<std::size_t>(CommandVerdict::kVerdicts)> verdicts_{};
-  Count states_{0}, states_lost_{0}, ends_{0};
-  std::atomic<bool> running_{false}, linked_{true};
+  Count states_{0}, states_lost_{0}, ends_{0}, starts_{0};
+  StartPauses pauses_;
+  std::atomic<bool> linked_{true};
   mutable std::mutex teleop_mutex_;
   std::optional<TeleopView> teleop_;
-  std::thread thread_;
+  LoopThread thread_;
 };
 
 }  // namespace hl

@@ -8,7 +8,7 @@
 
 namespace hl {
 
-/// One thread at a time; nothing but wait() waits.
+/// One thread at a time; nothing but wait() and startAgain() waits.
 class RosLink {
  public:
   virtual ~RosLink() = default;
@@ -18,8 +18,10 @@ class RosLink {
   virtual bool send(const RosHandState& state) = 0;
   /// The next one that has come.
   virtual std::optional<HandCommand> receive() = 0;
-  /// Nothing comes any more.
+  /// Nothing comes any more, until it has been started again.
   virtual bool ended() const = 0;
+  /// After its end; waits. False: it cannot be, now.
+  virtual bool startAgain() = 0;
 };
 
 }  // namespace hl

@@ -22,6 +22,7 @@ class RosProcess final : public RosLink {
   bool send(const RosHandState& state) override { return process_.send(bytesOf(state)); }
   std::optional<HandCommand> receive() override;
   bool ended() const override { return process_.ended(); }
+  bool startAgain() override { return process_.startAgain(); }
 
  private:
   DdsProcess process_;

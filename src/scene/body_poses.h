@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/shared_numbers.h"
 #include "scene/motion.h"
@@ -43,6 +44,13 @@ class SharedBody {
   SharedNumbers<18> numbers_;
 };
 
+/// How a body that no joint holds answers impulses.
+struct BodyMobility {
+  double inverse_mass = 0;                ///< 1/kg
+  Mat3 inverse_inertia_O = Mat3::Zero();  ///< 1/(kg m^2), about the centre of mass, in the object frame
+  Vec3 centre_O = Vec3::Zero();           ///< m, the centre of mass
+};
+
 /// Written by the loop that steps the bodies, between ticks. That loop alone uses it as a PoseSource; shown() is for
 /// everybody else.
 class BodyPoses final : public PoseSource {
@@ -64,6 +72,10 @@ class BodyPoses final : public PoseSource {
     shown_.write(body);
   }
   void jumpTo(const Pose& pose) { jumpTo(ShownBody{pose}); }
+  void setMobility(const BodyMobility& mobility) { mobility_ = mobility; }
+  /// 1/kg: the largest velocity across `normal` that an impulse of 1 N s across it gives the body at `point`. World
+  /// frame, at the end of the last step; 0 before the first.
+  double mobilityAcross(const Vec3& point, const Vec3& normal) const;
   /// Where it is from the begin to the end of the last step.
   const Box& near() const { return near_; }
   const Box& room() const { return room_; }
@@ -85,7 +97,20 @@ class BodyPoses final : public PoseSource {
   const Box object_, room_;
   Motion motion_;
   Box near_;
+  BodyMobility mobility_{};
   SharedBody shown_;
 };
+
+// The larger eigenvalue of J M^-1 J^T in the plane across the normal.
+inline double BodyPoses::mobilityAcross(const Vec3& point, const Vec3& normal) const {
+  const Pose pose = motion_.to();
+  const Vec3 arm_O = pose.toObject(point) - mobility_.centre_O, normal_O = pose.rotation.transpose() * normal;
+  const Vec3 s = normal_O.unitOrthogonal(), t = normal_O.cross(s);
+  const auto response = [&](const Vec3& impulse) {
+    return Vec3(mobility_.inverse_mass * impulse + (mobility_.inverse_inertia_O * arm_O.cross(impulse)).cross(arm_O));
+  };
+  const double ss = s.dot(response(s)), st = s.dot(response(t)), tt = t.dot(response(t));
+  return (ss + tt) / 2 + std::hypot((ss - tt) / 2, st);
+}
 
 }  // namespace hl

@@ -34,7 +34,7 @@ enum class BodyShape : std::uint8_t {
 inline constexpr std::array<const char*, 6> kBodyShapeNames{"hull", "box", "ball", "capsule", "cylinder", "parts"};
 
 /// No scene has more that move, each counted by its parts: what a step costs is bounded.
-inline constexpr std::size_t kMostBodies = 1000;
+inline constexpr std::size_t kMaxBodies = 1000;
 
 struct BodySpec {
   bool fixed = false;             ///< it does not move, and only its surface counts

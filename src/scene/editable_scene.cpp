@@ -21,7 +21,8 @@ constexpr double kRigid = 1e-12;               // error of a product of a hundre
 constexpr double kFlattest = 1e-9;             // minimum ratio of the smallest to the largest stretch
 constexpr std::size_t kVisitsPerInstance = 8;  // limit of visited items, for a hierarchy of many calls and few shapes
 
-// Polar decomposition linear = rotation * stretch; a reflection is part of the stretch.
+// Polar decomposition linear = rotation * stretch, which is unique; of a mirrored object the stretch has all axes
+// negative.
 struct Polar {
   Mat3 rotation, stretch;
 };
@@ -29,13 +30,13 @@ struct Polar {
 Polar polarOf(const Mat3& linear) {
   if (!linear.allFinite()) throw Error("the product of an object's matrices is not finite");
   const bool rigid = (linear.transpose() * linear - Mat3::Identity()).cwiseAbs().maxCoeff() < kRigid;
-  if (rigid && linear.determinant() > 0) return {linear, Mat3::Identity()};
+  const double handed = linear.determinant() < 0 ? -1 : 1;
+  if (rigid) return {handed * linear, handed * Mat3::Identity()};
   const Eigen::JacobiSVD<Mat3> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3 factors = svd.singularValues();
+  const Vec3& factors = svd.singularValues();
   if (!(factors.z() > kFlattest * factors.x())) throw Error("a matrix flattens an object: it cannot be touched so");
-  Vec3 handed(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  const Mat3 rotation = svd.matrixU() * handed.asDiagonal() * svd.matrixV().transpose();
-  const Mat3 stretch = svd.matrixV() * handed.cwiseProduct(factors).asDiagonal() * svd.matrixV().transpose();
+  const Mat3 rotation = handed * svd.matrixU() * svd.matrixV().transpose();
+  const Mat3 stretch = handed * svd.matrixV() * factors.asDiagonal() * svd.matrixV().transpose();
   const double unit = kSameStretch * std::exp2(std::round(std::log2(factors.x())));
   return {rotation, (stretch / unit).array().round().matrix() * unit};
 }
@@ -210,10 +211,10 @@ void EditableScene::Flattening::count(const SceneItems& items) {
   snap_points_ += items.snaps ? pointsIn(*items.snaps) : 0;
   fields_ += items.fields ? items.fields->size() : 0;
   field_points_ += items.fields ? pointsIn(*items.fields) : 0;
-  check(snaps_, kMostSnaps, "snaps");
-  check(snap_points_, kMostSnapPoints, "points of snaps");
-  check(fields_, kMostFields, "fields");
-  check(field_points_, kMostSnapPoints, "points of fields");
+  check(snaps_, kMaxSnaps, "snaps");
+  check(snap_points_, kMaxSnapPoints, "points of snaps");
+  check(fields_, kMaxFields, "fields");
+  check(field_points_, kMaxSnapPoints, "points of fields");
   memory_.take(2 * kPointer_bytes + (items.snaps ? bytesOf(*items.snaps) : 0) +
                (items.fields ? bytesOf(*items.fields) : 0));
 }

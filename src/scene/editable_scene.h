@@ -63,9 +63,9 @@ struct SceneLimits {
   std::uint64_t scene_bytes = std::uint64_t{4} << 30;
   std::uint64_t instances = 100'000;  ///< objects in the world, counting each call
   std::uint64_t texture_bytes = std::uint64_t{256} << 20;
-  std::uint32_t nesting = 32;          ///< depth of nested calls, as for GL's matrix stack
-  std::uint64_t bodies = kMostBodies;  ///< in the world, that move
-  std::uint64_t joints = kMostJoints;  ///< in the world
+  std::uint32_t nesting = 32;         ///< depth of nested calls, as for GL's matrix stack
+  std::uint64_t bodies = kMaxBodies;  ///< in the world, that move
+  std::uint64_t joints = kMaxJoints;  ///< in the world
 };
 
 /// Memory of an object without its items, and of a texture without its texels: an entry in two maps while edited.

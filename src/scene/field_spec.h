@@ -14,7 +14,7 @@
 namespace hl {
 
 /// No scene has more that count, and none has more corners together, as of snaps.
-inline constexpr std::size_t kMostFields = 64;
+inline constexpr std::size_t kMaxFields = 64;
 
 enum class FieldKind : std::uint8_t {
   kMagnet,    ///< pulls to the place: 0 on it and at its reach, most at a third of it

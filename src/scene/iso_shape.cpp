@@ -15,12 +15,12 @@ const IsoSurface& isoSurfaceOfShape(const Shape& shape) { return dynamic_cast<co
 
 // "1 (-480), 2 (370)"
 std::string listed(const std::vector<const Instance*>& surfaces) {
-  constexpr std::size_t kMostListed = 8;
+  constexpr std::size_t kMaxListed = 8;
   std::ostringstream text;
-  for (std::size_t i = 0; i < surfaces.size() && i < kMostListed; ++i) {
+  for (std::size_t i = 0; i < surfaces.size() && i < kMaxListed; ++i) {
     text << (i == 0 ? "" : ", ") << surfaces[i]->key << " (" << isoSurfaceOf(*surfaces[i])->iso().value << ")";
   }
-  text << (surfaces.size() > kMostListed ? ", ..." : "");
+  text << (surfaces.size() > kMaxListed ? ", ..." : "");
   return text.str();
 }
 

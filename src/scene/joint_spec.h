@@ -55,6 +55,6 @@ struct JointSpec {
 };
 
 /// No scene has more: what a step costs is bounded.
-inline constexpr std::size_t kMostJoints = 1000;
+inline constexpr std::size_t kMaxJoints = 1000;
 
 }  // namespace hl

@@ -40,7 +40,7 @@ struct Reading {
 };
 
 /// More objects than these stay one.
-inline constexpr std::size_t kMostModelParts = 4096;
+inline constexpr std::size_t kMaxModelParts = 4096;
 
 /// An object that a model is made of: so many of the vertices and elements of its lists.
 struct ModelPart {

@@ -39,13 +39,13 @@ class SceneAt {
       : snapshot_(snapshot), time_ns_(time_ns), recent_(recent) {
     recent_.readFrom(snapshot.identity, std::min(time_ns, snapshot.deforms_until_ns));
   }
-  /// The same scene and time without the objects of these keys, at most kMostLeftOut that are in it. It adds to the
+  /// The same scene and time without the objects of these keys, at most kMaxLeftOut that are in it. It adds to the
   /// cost of `of`, which must outlive it.
   SceneAt(const SceneAt& of, std::span<const std::uint64_t> left_out);
   SceneAt(const SceneAt&) = delete;
   SceneAt& operator=(const SceneAt&) = delete;
 
-  static constexpr std::size_t kMostLeftOut = 4;
+  static constexpr std::size_t kMaxLeftOut = 4;
 
   const Snapshot& snapshot() const { return snapshot_; }
   std::int64_t time_ns() const { return time_ns_; }
@@ -105,7 +105,7 @@ class SceneAt {
   std::int64_t time_ns_;
   std::optional<FewRecentPrimitives> own_;
   RecentPrimitives& recent_;
-  FixedVector<std::uint32_t, kMostLeftOut> left_out_;  // numbers of instances
+  FixedVector<std::uint32_t, kMaxLeftOut> left_out_;  // numbers of instances
   mutable QueryCost own_cost_;
   QueryCost& cost_ = own_cost_;
 };

@@ -13,9 +13,9 @@
 namespace hl {
 
 /// No scene has more that count, and none has more corners together: what a tick costs is bounded.
-inline constexpr std::size_t kMostSnaps = 64, kMostSnapPoints = 4096;
+inline constexpr std::size_t kMaxSnaps = 64, kMaxSnapPoints = 4096;
 /// Of one snap.
-inline constexpr std::size_t kMostCorners = 256;
+inline constexpr std::size_t kMaxCorners = 256;
 
 /// Frame of the object.
 struct SnapSpec {

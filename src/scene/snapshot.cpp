@@ -56,7 +56,7 @@ std::vector<Placed> firstOf(const std::vector<Instance>& instances, std::shared_
     const List* const list = (instances[i].*lists).get();
     for (std::uint32_t number = 0; list != nullptr && number < list->size(); ++number) {
       points += (*list)[number].points.size();
-      if (all.size() == most || points > kMostSnapPoints) return all;
+      if (all.size() == most || points > kMaxSnapPoints) return all;
       all.push_back({i, number});
     }
   }
@@ -65,10 +65,10 @@ std::vector<Placed> firstOf(const std::vector<Instance>& instances, std::shared_
 
 // Those whose matter hinders a motion are kept first: a hand feels them without a touch.
 void keepMostMatter(Snapshot& snapshot) {
-  if (snapshot.matter.size() <= kMostMatter) return;
+  if (snapshot.matter.size() <= kMaxMatter) return;
   std::stable_partition(snapshot.matter.begin(), snapshot.matter.end(),
                         [&](std::uint32_t number) { return snapshot.instances[number].shape->source->resists(); });
-  snapshot.matter.resize(kMostMatter);
+  snapshot.matter.resize(kMaxMatter);
 }
 
 bool knowsMatter(const Shape& shape) { return shape.source && shape.source->siteOf(Vec3::Zero()) != Site::kUnknown; }
@@ -152,8 +152,8 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
   snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->deforms_until_ns);
   keepMostMatter(*snapshot);
   snapshot->near = BoxTree(snapshot->reach);
-  snapshot->snaps = firstOf<PlacedSnap>(snapshot->instances, &Instance::snaps, kMostSnaps);
-  snapshot->fields = firstOf<PlacedField>(snapshot->instances, &Instance::fields, kMostFields);
+  snapshot->snaps = firstOf<PlacedSnap>(snapshot->instances, &Instance::snaps, kMaxSnaps);
+  snapshot->fields = firstOf<PlacedField>(snapshot->instances, &Instance::fields, kMaxFields);
   return snapshot;
 }
 

@@ -87,7 +87,7 @@ struct PlacedField {
 inline constexpr std::int64_t kAbruptBlend_ns = 60'000'000;
 
 /// A tick asks each of them for the matter around the proxy.
-inline constexpr std::size_t kMostMatter = 16;
+inline constexpr std::size_t kMaxMatter = 16;
 
 /// Immutable after makeSnapshot; read by any thread. Metres, world frame.
 struct Snapshot {
@@ -95,7 +95,7 @@ struct Snapshot {
   std::vector<Box> reach;                ///< of each instance: bounds during its whole motion, world frame
   BoxTree near;                          ///< finds instances by `reach`
   std::vector<std::uint32_t> deforming;  ///< numbers of instances whose mesh deforms
-  std::vector<std::uint32_t> matter;     ///< numbers of instances that know where their matter is, at most kMostMatter
+  std::vector<std::uint32_t> matter;     ///< numbers of instances that know where their matter is, at most kMaxMatter
   std::vector<PlacedSnap> snaps;         ///< of all instances, as many as may count, in their order
   std::vector<PlacedField> fields;       ///< as `snaps`
   Box bounds;                            ///< of all instances at their final poses

@@ -30,8 +30,8 @@ void checkJointsOf(const PlacedList& placed) {
 }
 
 void checkHands(std::size_t devices) {
-  if (devices > kMostHands)
-    throw Error("rigid bodies that move are touched by at most " + std::to_string(kMostHands) +
+  if (devices > kMaxHands)
+    throw Error("rigid bodies that move are touched by at most " + std::to_string(kMaxHands) +
                 " devices, and the server has " + std::to_string(devices) + ": give them fixed, or start fewer");
 }
 

@@ -34,7 +34,7 @@ class ClientSession {
   /// Seconds until the next state is due, for the connection's timer; infinity without states. Answers and events come
   /// with a call of `wake` instead.
   virtual double nextState_s() const = 0;
-  /// Why the server ends the session, in one line, when the replies before have been taken; empty while it lives.
+  /// Why the server ends the session, in one line, when the replies before have been taken; empty until then.
   virtual std::string end() const = 0;
 };
 

@@ -1,7 +1,7 @@
 #include "session/hand_messages.h"
 
+#include "io/vec_messages.h"
 #include "session/stylus_messages.h"
-#include "session/vec_messages.h"
 
 namespace hl {
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "session/message_size.h"
 
 namespace hl {
@@ -22,14 +23,8 @@ std::string oneLine(std::string text) {
   for (char& c : text) {
     if (c == '\n' || c == '\r' || c == '\t') c = ' ';
   }
-  if (text.size() > kMax) {
-    // Never in the middle of a UTF-8 character.
-    std::size_t end = kMax;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-    text.resize(end);
-    text += "...";
-  }
-  return text;
+  if (text.size() <= kMax) return text;
+  return std::string(beginOf(text, kMax)) + "...";
 }
 
 namespace {

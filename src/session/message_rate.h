@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/clock.h"
+
 namespace hl {
 
 class MessageRate {
@@ -12,7 +14,7 @@ class MessageRate {
 
   /// Counts one message at `now_ns` (never earlier than the time before); false when it comes too soon.
   bool allow(std::int64_t now_ns) {
-    if (last_ns_ != 0) left_ = std::min(rate_Hz_, left_ + rate_Hz_ * 1e-9 * static_cast<double>(now_ns - last_ns_));
+    if (last_ns_ != 0) left_ = std::min(rate_Hz_, left_ + rate_Hz_ * seconds(now_ns - last_ns_));
     last_ns_ = now_ns;
     if (left_ < 1) return false;
     left_ -= 1;

@@ -28,7 +28,7 @@ class ReplyQueue {
 
   /// Ends the session with this reason; the first counts.
   void end(const std::string& why);
-  /// Why it ends; empty while it lives.
+  /// Why it ends; empty until it does.
   std::string end() const;
 
  private:

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "io/vec_messages.h"
 #include "session/state_messages.h"
-#include "session/vec_messages.h"
 
 namespace hl {
 

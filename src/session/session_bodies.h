@@ -14,7 +14,7 @@
 
 namespace hl {
 
-/// One thread, but for hears().
+/// One thread, but for wantsEvent().
 class SessionBodies {
  public:
   explicit SessionBodies(std::uint32_t session) : session_(session) {}
@@ -24,7 +24,7 @@ class SessionBodies {
   /// From now on the client is told their events, of impacts those of more than `impacts_above_N_s`; absent: none.
   void wantEvents(std::optional<double> impacts_above_N_s) { told_above_N_s_ = impacts_above_N_s.value_or(kNothing); }
   /// Whether the client is told of this one. Any thread.
-  bool hears(const BodyEvent& event) const {
+  bool wantsEvent(const BodyEvent& event) const {
     const double above_N_s = told_above_N_s_;
     if (event.object.session != session_ || above_N_s < 0) return false;
     return event.kind != BodyEventKind::kImpact || event.impulse_N_s > above_N_s;

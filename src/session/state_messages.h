@@ -3,7 +3,7 @@
 
 #include <hl.pb.h>
 
-#include "session/vec_messages.h"
+#include "io/vec_messages.h"
 #include "touch/touch_session.h"
 
 namespace hl {

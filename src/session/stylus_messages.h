@@ -6,7 +6,7 @@
 #include <string>
 
 #include "device/device.h"
-#include "session/vec_messages.h"
+#include "io/vec_messages.h"
 #include "touch/touch_session.h"
 
 namespace hl {

@@ -30,7 +30,7 @@ void TouchServer::start() {
 void TouchServer::stop() {
   if (!running_.exchange(false)) return;
   world_.stop();
-  events_.join();
+  if (events_.joinable()) events_.join();
   const std::lock_guard lock(mutex_);
   for (HlSession* session : sessions_) session->end("the server is closing");
 }
@@ -114,7 +114,7 @@ void TouchServer::tellBodies(std::uint32_t device) {
     out.set_name(event.object.name);
     out.set_impulse_n_s(event.impulse_N_s);
     toProto(event.position_W, *out.mutable_position());
-    tellEach(out, [&](const HlSession& session) { return session.bodies().hears(event); });
+    tellEach(out, [&](const HlSession& session) { return session.bodies().wantsEvent(event); });
   }
 }
 

@@ -23,6 +23,7 @@ namespace hl {
 
 struct TouchServerSettings {
   static constexpr std::size_t kMaxDevices = 16;
+  static_assert(kMaxDevices <= FaultGroup::kMaxDevices);
 
   TouchSettings touch;  ///< of each device, but for its label
   /// 1 to kMaxDevices, with different names where there are several; specs as openAnyDevice() takes them. Each has a
@@ -38,8 +39,11 @@ class TouchWorld {
  public:
   /// `base` is touchable besides what clients bring; it may be empty. Throws hl::Error when a device cannot be had.
   TouchWorld(std::shared_ptr<const Snapshot> base, const TouchServerSettings& settings);
+  TouchWorld(const TouchWorld&) = delete;
+  TouchWorld& operator=(const TouchWorld&) = delete;
+  ~TouchWorld() { stop(); }
   void start();
-  void stop();  ///< zero force, then the rest; once
+  void stop();  ///< zero force, then the rest; safe to call twice
 
   const TouchServerSettings& settings() const { return settings_; }
   const Limits& limits() const { return settings_.limits; }

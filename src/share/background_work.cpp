@@ -18,7 +18,6 @@ BackgroundWork::~BackgroundWork() {
 }
 
 void BackgroundWork::post(Work work) {
-  ++under_way_;
   {
     const std::lock_guard lock(mutex_);
     work_.push_back(std::move(work));
@@ -32,7 +31,6 @@ void BackgroundWork::finish() {
     const std::lock_guard lock(mutex_);
     done.swap(done_);
   }
-  under_way_ -= done.size();
   for (const Finish& one : done) {
     if (one) one();
   }

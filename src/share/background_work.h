@@ -29,13 +29,10 @@ class BackgroundWork {
   void post(Work work);
   /// All that is done.
   void finish();
-  /// Posted and not yet finished.
-  std::size_t underWay() const { return under_way_; }
 
  private:
   void run();
 
-  std::size_t under_way_ = 0;
   std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
   std::deque<Work> work_;

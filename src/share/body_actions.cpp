@@ -25,7 +25,7 @@ void BodyActions::add(const ItemPush& push) {
 // `point_O`: where an impulse acts; it goes to the point of the body that is there now.
 void BodyActions::add(ItemId id, BodyCommand command, const std::optional<Vec3>& point_O) {
   const std::optional<std::uint64_t> own = local_.bodyOf(id), taken_over = replicas_.bodyOf(id);
-  if ((!own && !taken_over) || commands_.size() >= kMostCommands) return;
+  if ((!own && !taken_over) || commands_.size() >= kMaxCommands) return;
   command.key = own ? *own : *taken_over;
   const std::shared_ptr<const Snapshot> scene = session_.snapshot();
   std::uint32_t number = 0;

@@ -26,7 +26,7 @@ class BodyActions {
   void give();
 
  private:
-  static constexpr std::size_t kMostCommands = 1000;
+  static constexpr std::size_t kMaxCommands = 1000;
   void add(ItemId id, BodyCommand command, const std::optional<Vec3>& point_O);
 
   TouchSession& session_;

@@ -10,7 +10,7 @@ namespace hl {
 namespace {
 
 // Of one server, which asks for no more than a window: more is no request of HL.
-constexpr std::size_t kMostAnswers = 256;
+constexpr std::size_t kMaxAnswers = 256;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ bool Contents::want(const ContentName& name, const std::vector<ServerId>& from, 
     under_way->second.from = from;
     return true;
   }
-  if (name.bytes == 0 || name.bytes > kMost_bytes || used_bytes() + name.bytes > kMost_bytes) return false;
+  if (name.bytes == 0 || name.bytes > kMax_bytes || used_bytes() + name.bytes > kMax_bytes) return false;
   Fetch& fetch = fetches_[name.sha256];
   fetch.bytes = name.bytes;
   fetch.from = from;
@@ -54,7 +54,7 @@ void Contents::keepOnly(const std::function<bool(const std::string& sha256)>& wa
 }
 
 void Contents::hear(const proto::ShareRequest& request) {
-  if (answers_.size() >= kMostAnswers || request.count() > kWindow || request.first() > kMost_bytes) return;
+  if (answers_.size() >= kMaxAnswers || request.count() > kWindow || request.first() > kMax_bytes) return;
   answers_.push_back({request.from(), request.sha256(), request.first(), request.first() + request.count()});
 }
 

@@ -36,7 +36,7 @@ class Contents {
   /// Without a part for so long it is asked for again, of the next server that may have it.
   static constexpr std::int64_t kPatience_ns = 1'000'000'000;
   /// Of all contents together. About fifteen million triangles.
-  static constexpr std::uint64_t kMost_bytes = std::uint64_t{1} << 30;
+  static constexpr std::uint64_t kMax_bytes = std::uint64_t{1} << 30;
 
   /// Sends to the inbox of a server; false: not now.
   using Send = std::function<bool(ServerId to, const proto::ShareMessage& message)>;

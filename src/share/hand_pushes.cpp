@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/clock.h"
+
 namespace hl {
 
 namespace {
@@ -32,7 +34,7 @@ void HandPushes::addSteps(const TouchSession& hand, Read& read, std::map<std::ui
     ServoMoment moment;
     if (!moments.read(read.next, moment)) continue;
     const std::int64_t step_ns = moment.time_ns - std::exchange(read.time_ns, moment.time_ns);
-    if (step_ns > 0 && step_ns < kLongestStep_ns) add(moment, 1e-9 * static_cast<double>(step_ns), sums);
+    if (step_ns > 0 && step_ns < kLongestStep_ns) add(moment, seconds(step_ns), sums);
   }
 }
 

@@ -17,7 +17,7 @@ using Block = proto::RecordingBlock;
 constexpr std::uint64_t kShapeId = 1, kSurfacesId = 2, kItemKey = 1;
 // Bytes of a shape with its hierarchy, and of what is there while it is made, for one of its content: a mesh of packed
 // numbers has about 25 a triangle there and 150 here.
-constexpr std::uint64_t kMostGrowth = 8;
+constexpr std::uint64_t kMaxGrowth = 8;
 constexpr const char* kBroken = "an object of a shared world makes no sense";
 
 // Without what is of its place in this server's scene.
@@ -140,14 +140,14 @@ NamedContent ItemWriter::contentOf(KeptMap<Part>& kept, const std::shared_ptr<co
 WrittenItem ItemWriter::write(const Instance& instance, bool jointed) {
   const NamedContent shape = contentOf(shapes_, instance.shape, [&] { return encodeShape(instance); });
   const NamedContent surfaces = contentOf(surfaces_, instance.surfaces, [&] { return encodeSurfaces(instance); });
-  requireRoom("the shape and surfaces", shape.name.bytes + surfaces.name.bytes, Contents::kMost_bytes);
+  requireRoom("the shape and surfaces", shape.name.bytes + surfaces.name.bytes, Contents::kMax_bytes);
   auto content = std::make_shared<proto::ShareContent>();
   toProto(shape.name, *content->mutable_shape());
   toProto(surfaces.name, *content->mutable_surfaces());
   content->set_look(encodeLook(instance));
   content->set_body(instance.movesAsBody());
   content->set_jointed(jointed);
-  requireRoom("the snaps and fields", content->look().size(), kMostLook_bytes);
+  requireRoom("the snaps and fields", content->look().size(), kMaxLook_bytes);
   return {std::move(content), shape, surfaces};
 }
 
@@ -176,7 +176,7 @@ bool ItemReader::isHere(const proto::ShareContent& content) const {
 Instance ItemReader::read(const proto::ShareContent& content, const std::string& shape, const std::string& surfaces) {
   const bool is_new = !isHere(content);
   MemoryShare share(memory_);
-  if (is_new) share.take(kMostGrowth * (shape.size() + surfaces.size()));
+  if (is_new) share.take(kMaxGrowth * (shape.size() + surfaces.size()));
   Instance item = make(content, shape, surfaces);
   if (is_new) {
     share.set(memoryOf(*makeSnapshot({item})));

@@ -63,9 +63,9 @@ void LocalScene::look(const Snapshot& scene, std::int64_t now_ns) {
 LocalScene::Row* LocalScene::rowOf(ItemId id, const Instance& instance) {
   const auto found = rows_.find(id);
   if (found != rows_.end()) return &found->second;
-  if (rows_.size() < SharedWorld::kMostItems) return &rows_.emplace(id, Row{instance}).first->second;
+  if (rows_.size() < SharedWorld::kMaxItems) return &rows_.emplace(id, Row{instance}).first->second;
   if (!std::exchange(told_many_, true))
-    tell_("others are told of " + std::to_string(SharedWorld::kMostItems) + " objects of this server, and it has more");
+    tell_("others are told of " + std::to_string(SharedWorld::kMaxItems) + " objects of this server, and it has more");
   return nullptr;
 }
 

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::int64_t kForget_ns = 60'000'000'000, kSameName_ns = 3'000'000'000, kTogether_ns = 1'000'000'000;
 constexpr std::int64_t kLongest_ns = std::int64_t{1} << 60;  // 36 years
-constexpr std::uint32_t kMostOfAServer = 16;
+constexpr std::uint32_t kMaxOfAServer = 16;
 
-std::string shortName(const std::string& name) { return validUtf8(name.substr(0, kMostShareName)); }
+std::string shortName(const std::string& name) { return validUtf8(name.substr(0, kMaxShareName)); }
 
 }  // namespace
 
@@ -22,7 +22,7 @@ bool Peers::hear(ServerId from, std::int64_t now_ns) {
   if (from == 0 || from == self_.id) return false;
   auto found = peers_.find(from);
   if (found == peers_.end()) {
-    if (peers_.size() >= kMostPeers) return false;
+    if (peers_.size() >= kMaxPeers) return false;
     found = peers_.emplace(from, Peer{}).first;
     found->second.first_ns = now_ns;
   }
@@ -46,7 +46,7 @@ void Peers::hear(const proto::ShareBeat& beat, std::int64_t now_ns) {
 }
 
 void Peers::hear(const proto::ShareHand& hand, std::int64_t now_ns) {
-  if (hand.number() >= kMostOfAServer || !isHand(hand.hand()) || !hear(hand.from(), now_ns)) return;
+  if (hand.number() >= kMaxOfAServer || !isHand(hand.hand()) || !hear(hand.from(), now_ns)) return;
   proto::ShareHand& kept = peers_[hand.from()].hands[hand.number()];
   if (hand.time_ns() >= kept.time_ns()) kept = hand;
 }
@@ -119,6 +119,12 @@ std::vector<ServerId> Peers::there(std::int64_t now_ns) const {
     if (isThere(id, now_ns)) ids.push_back(id);
   }
   return ids;
+}
+
+void Peers::hearAgain(std::int64_t deaf_ns, std::int64_t now_ns) {
+  for (auto& [_, peer] : peers_) {
+    if (deaf_ns - peer.heard_ns < kLease_ns) peer.heard_ns = now_ns;
+  }
 }
 
 void Peers::forget(std::int64_t now_ns) {

@@ -19,7 +19,7 @@ namespace hl {
 /// Who this server is in the world.
 struct ShareSelf {
   ServerId id = 0;
-  std::string name;     ///< 1 to kMostShareName letters, one in the world
+  std::string name;     ///< 1 to kMaxShareName letters, one in the world
   bool adopts = true;   ///< it takes over objects whose owner is lost
   std::string version;  ///< of HL
 };
@@ -42,7 +42,7 @@ class Peers {
   /// A server that is not heard for so long is lost: five beats in a row.
   static constexpr std::int64_t kLease_ns = 500'000'000;
   static constexpr std::int64_t kBeat_ns = 100'000'000;
-  static constexpr std::size_t kMostPeers = 64;
+  static constexpr std::size_t kMaxPeers = 64;
 
   Peers(const ShareSelf& self, std::int64_t begin_ns) : self_(self), begin_ns_(begin_ns) {}
 
@@ -71,6 +71,8 @@ class Peers {
   const std::map<ServerId, Peer>& all() const { return peers_; }
   /// The times that are shown go on; often.
   void followClocks(std::int64_t now_ns);
+  /// Since `deaf_ns` nothing could be heard: those that were there then keep a whole lease from now.
+  void hearAgain(std::int64_t deaf_ns, std::int64_t now_ns);
   /// Those that have been lost for a minute go.
   void forget(std::int64_t now_ns);
 

@@ -21,7 +21,7 @@ void PlayoutDelay::add(std::int64_t transit_ns) {
   const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(count);
   std::sort(sorted.begin(), end);
   const std::size_t late = count / 100;  // so many may come later
-  delay_ns_ = std::min(sorted[count - 1 - late], sorted[0] + kMostJitter_ns);
+  delay_ns_ = std::min(sorted[count - 1 - late], sorted[0] + kMaxJitter_ns);
 }
 
 void SteadyLag::follow(std::int64_t now_ns, std::int64_t wanted_ns) {
@@ -39,7 +39,7 @@ void Track::add(std::int64_t time_ns, const ItemMotion& motion) {
       std::find_if(points_.begin(), points_.end(), [&](const Point& point) { return point.time_ns >= time_ns; });
   if (later != points_.end() && later->time_ns == time_ns) return;
   points_.insert(later, {time_ns, motion});
-  if (points_.size() > kMostPoints) points_.erase(points_.begin());
+  if (points_.size() > kMaxPoints) points_.erase(points_.begin());
 }
 
 void Track::rest(std::int64_t time_ns, const ItemMotion& motion) {

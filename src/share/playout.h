@@ -28,9 +28,9 @@ class PlayoutDelay {
  public:
   /// A packet was under way for so long, by both clocks; a negative one counts as 0.
   void add(std::int64_t transit_ns);
-  /// From the time of a pose to when it is shown. The shortest transit, and kMostJitter_ns beyond it at most.
+  /// From the time of a pose to when it is shown. The shortest transit, and kMaxJitter_ns beyond it at most.
   std::int64_t delay_ns() const { return delay_ns_; }
-  static constexpr std::int64_t kMostJitter_ns = 100'000'000;
+  static constexpr std::int64_t kMaxJitter_ns = 100'000'000;
 
  private:
   static constexpr std::size_t kTransits = 256;
@@ -72,7 +72,6 @@ class Track {
   Pose at(std::int64_t time_ns) const;
   /// As it was told last; a track with nothing: at rest at the origin.
   ItemMotion newest() const { return points_.empty() ? ItemMotion{} : points_.back().motion; }
-  std::int64_t newest_ns() const { return points_.empty() ? 0 : points_.back().time_ns; }
   /// Nothing that is older than this is asked for any more.
   void forgetBefore(std::int64_t time_ns);
 
@@ -81,8 +80,8 @@ class Track {
     std::int64_t time_ns;
     ItemMotion motion;
   };
-  static constexpr std::size_t kMostPoints = 128;  // two seconds of frames
-  std::vector<Point> points_;                      // by rising times
+  static constexpr std::size_t kMaxPoints = 128;  // two seconds of frames
+  std::vector<Point> points_;                     // by rising times
 };
 
 }  // namespace hl

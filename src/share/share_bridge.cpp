@@ -12,7 +12,9 @@ namespace hl {
 namespace {
 
 // Of one pass: what comes faster waits, so that the scene is looked at in time.
-constexpr int kMostPackets = 1000;
+constexpr int kMaxPackets = 1000;
+// Looks at a scene of thousands of objects are made less often: from one to the next as many times as long as it takes.
+constexpr std::int64_t kLooksApart = 4;
 // A simulated hand goes there in less; the beats of this server may wait so long.
 constexpr double kMoveHands_s = 0.3;
 // After that what is placed is shown.
@@ -37,20 +39,16 @@ ShareBridge::ShareBridge(std::unique_ptr<ShareLink> link, const std::string& wor
       client_(server.placeClient()),
       world_(self, monotonicNow_ns(), [this](const SharePacket& packet) { return link_->send(packet); }),
       local_(self, client_->session(), work_, world_.contents(), someOf(tell_)),
-      replicas_(*client_, server.devices() <= kMostHands, work_, world_.contents(), fitOfHands(), someOf(tell_)),
+      replicas_(*client_, server.devices() <= kMaxHands, work_, world_.contents(), fitOfHands(), someOf(tell_)),
       pushes_(client_->session()),
       actions_(server.device(), local_, replicas_),
       view_{world, self.name, {}} {}
 
 void ShareBridge::start() {
-  running_ = true;
-  thread_ = startThread("share", [this] { run(); });
+  thread_.start("share", [this] { run(); });
 }
 
-void ShareBridge::stop() {
-  running_ = false;
-  if (thread_.joinable()) thread_.join();
-}
+void ShareBridge::stop() { thread_.stop(); }
 
 // A scene of its own is fitted already.
 ReplicasHere::FitHands ShareBridge::fitOfHands() {
@@ -68,18 +66,25 @@ ShareView ShareBridge::view() const {
 
 void ShareBridge::run() {
   std::int64_t next_ns = monotonicNow_ns();
-  std::uint64_t shows = 0;
-  while (running_) {
+  std::int64_t next_look_ns = next_ns;
+  StartPauses pauses;
+  while (thread_.running()) {
     link_->wait(std::max<std::int64_t>(1, next_ns - monotonicNow_ns()));
     const std::int64_t now_ns = monotonicNow_ns();
     hearAll(now_ns);
-    if (link_->ended()) return endFor("hl-share has ended: restart this server to share the world again");
+    if (link_->ended()) {
+      startAgain(pauses, now_ns);
+      continue;
+    }
     guarded([&] { world_.step(now_ns); });
     if (now_ns >= next_ns) {
       guarded([&] { work_.finish(); });
-      if (shows++ % (kLook_ns / kShow_ns) == 0) guarded([&] { look(now_ns); });
+      if (now_ns >= next_look_ns) {
+        guarded([&] { look(now_ns); });
+        next_look_ns = now_ns + kLooksApart * (monotonicNow_ns() - now_ns);
+      }
       guarded([&] { showOthers(now_ns); });
-      next_ns = std::max(next_ns + kShow_ns, now_ns);
+      next_ns = std::max(next_ns + kLook_ns, now_ns);
     }
     if (!world_.peers().isSecondOfItsName(now_ns)) continue;
     guarded([&] { replicas_.clear(); });
@@ -88,8 +93,23 @@ void ShareBridge::run() {
   }
 }
 
+// Meanwhile what others have stays where it is.
+void ShareBridge::startAgain(StartPauses& pauses, std::int64_t deaf_ns) {
+  endFor("hl-share has ended; it is started again");
+  while (thread_.running()) {
+    pauses.wait([this] { return thread_.running().load(); });
+    if (!thread_.running() || !link_->startAgain()) continue;
+    guarded([&] { world_.linkAgain(deaf_ns, monotonicNow_ns()); });
+    guarded([&] { tell_("hl-share is there again"); });
+    const std::lock_guard lock(view_mutex_);
+    view_.ended.clear();
+    ++view_.starts;
+    return;
+  }
+}
+
 void ShareBridge::hearAll(std::int64_t now_ns) {
-  for (int i = 0; i < kMostPackets; ++i) {
+  for (int i = 0; i < kMaxPackets; ++i) {
     const std::optional<SharePacket> packet = link_->receive();
     if (!packet) return;
     guarded([&] { world_.hear(*packet, now_ns); });
@@ -158,7 +178,7 @@ void ShareBridge::tellPeers(std::int64_t now_ns) {
 }
 
 void ShareBridge::writeView(std::int64_t now_ns) {
-  ShareView view{view_.world, view_.name, {}, world_.counts(now_ns)};
+  ShareView view{view_.world, view_.name, {}, view_.starts, world_.counts(now_ns)};
   std::multimap<std::string, const Peer*> by_name;
   for (const auto& [id, name] : told_peers_) by_name.emplace(name, &world_.peers().all().at(id));
   for (const auto& [name, peer] : by_name) {
@@ -171,7 +191,7 @@ void ShareBridge::writeView(std::int64_t now_ns) {
   }
   server_.setRemoteHands(view.hands);
   if (view.counts.left_out > 0 && view_.counts.left_out == 0)
-    tell_("objects of other servers are left out: there are more than " + std::to_string(SharedWorld::kMostRecords));
+    tell_("objects of other servers are left out: there are more than " + std::to_string(SharedWorld::kMaxRecords));
   const std::lock_guard lock(view_mutex_);
   view_ = std::move(view);
 }

@@ -1,17 +1,17 @@
 // ShareBridge: a server in a world that it shares with others. One thread, "share", looks at the server's scene and
-// hands 60 times a second, tells the others of them, and places what the others have in the scene. The servos never
-// wait for it.
+// hands 120 times a second, tells the others of them, and places what the others have in the scene. The servos never
+// wait for it. When hl-share ends by itself it is started again.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
+#include "base/guarded_thread.h"
+#include "ros/start_pauses.h"
 #include "session/placed_client.h"
 #include "session/touch_server.h"
 #include "share/background_work.h"
@@ -29,9 +29,9 @@ class ShareBridge {
  public:
   /// For what a person should know: a line without its end. Called by the thread of the bridge.
   using TellPerson = std::function<void(const std::string&)>;
-  /// From one look at the server's own scene to the next; what others have is placed twice as often, so that it is
-  /// shown sooner.
-  static constexpr std::int64_t kLook_ns = 16'666'667, kShow_ns = kLook_ns / 2;
+  /// From one look at the server's own scene to the next; a pose that a line loses is soon followed by another one.
+  /// What others have is placed as often.
+  static constexpr std::int64_t kLook_ns = 8'333'333;
 
   /// `server` outlives it.
   ShareBridge(std::unique_ptr<ShareLink> link, const std::string& world, const ShareSelf& self, TouchServer& server,
@@ -46,6 +46,7 @@ class ShareBridge {
  private:
   ReplicasHere::FitHands fitOfHands();
   void run();
+  void startAgain(StartPauses& pauses, std::int64_t deaf_ns);
   void hearAll(std::int64_t now_ns);
   void look(std::int64_t now_ns);
   void tellScene(std::int64_t now_ns);
@@ -70,8 +71,7 @@ class ShareBridge {
   std::map<ServerId, std::string> told_peers_;
   mutable std::mutex view_mutex_;
   ShareView view_;
-  std::atomic<bool> running_{false};
-  std::thread thread_;
+  LoopThread thread_;
 };
 
 }  // namespace hl

@@ -22,13 +22,13 @@ enum class Lane : std::uint32_t {
 struct SharePacket {
   Lane lane = Lane::kStream;
   std::uint64_t key = 0;
-  std::string bytes;  ///< a proto::ShareMessage, at most kMostPacket_bytes
+  std::string bytes;  ///< a proto::ShareMessage, at most kMaxPacket_bytes
 };
 
 /// What DDS sends as one sample with a margin, as a packet of a local socket does.
-inline constexpr std::size_t kMostPacket_bytes = 60'000;
+inline constexpr std::size_t kMaxPacket_bytes = 60'000;
 
-/// One thread at a time; nothing but wait() waits.
+/// One thread at a time; nothing but wait() and startAgain() waits.
 class ShareLink {
  public:
   virtual ~ShareLink() = default;
@@ -38,8 +38,10 @@ class ShareLink {
   virtual bool send(const SharePacket& packet) = 0;
   /// The next one that has come, from any server but this one.
   virtual std::optional<SharePacket> receive() = 0;
-  /// Nothing comes any more.
+  /// Nothing comes any more, until it has been started again.
   virtual bool ended() const = 0;
+  /// After its end; waits. What was sent before is not known to it. False: it cannot be, now.
+  virtual bool startAgain() = 0;
 };
 
 }  // namespace hl

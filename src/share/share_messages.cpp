@@ -5,24 +5,25 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "geometry/primitive.h"
 #include "io/value_messages.h"
-#include "session/vec_messages.h"
+#include "io/vec_messages.h"
 
 namespace hl {
 
 namespace {
 
 // Faster than anything of a scene; of numbers that are none nothing is left.
-constexpr double kMostSpeed = 1e9;
+constexpr double kMaxSpeed = 1e9;
 constexpr std::size_t kSha256_bytes = 32;
 // A change of owner each millisecond for fifty days: there is always a next one.
-constexpr std::uint64_t kMostEpoch = std::uint64_t{1} << 32;
+constexpr std::uint64_t kMaxEpoch = std::uint64_t{1} << 32;
 
 bool readVector(const google::protobuf::RepeatedField<float>& in, Vec3& out) {
   if (in.size() == 0) return true;
   if (in.size() != 3) return false;
   out = Vec3(in[0], in[1], in[2]);
-  return out.allFinite() && out.norm() < kMostSpeed;
+  return out.allFinite() && out.norm() < kMaxSpeed;
 }
 
 void writeVector(const Vec3& v, google::protobuf::RepeatedField<float>& out) {
@@ -68,21 +69,21 @@ bool isNewer(const proto::ShareItem& a, const proto::ShareItem& b) {
 }
 
 bool isItem(const proto::ShareItem& item) {
-  if (item.id() == 0 || item.epoch() == 0 || item.epoch() > kMostEpoch || item.owner() == 0) return false;
+  if (item.id() == 0 || item.epoch() == 0 || item.epoch() > kMaxEpoch || item.owner() == 0) return false;
   if (item.gone()) return true;
-  if (item.content().look().size() > kMostLook_bytes) return false;
+  if (item.content().look().size() > kMaxLook_bytes) return false;
   return isName(item.content().shape()) && isName(item.content().surfaces()) && motionOf(item.motion()).has_value();
 }
 
 bool isHand(const proto::OtherDevice& hand) {
-  constexpr std::size_t kMostText = 200;
-  constexpr double kFarthest_m = 1e9, kMostForce_N = 1e4;
+  constexpr std::size_t kMaxText = 200;
+  constexpr double kMaxForce_N = 1e4;
   const auto within = [](const proto::Vec3& in, double most) {
     const Vec3 v = vecOf(in);
     return v.allFinite() && v.norm() <= most;
   };
-  return hand.label().size() <= kMostText && hand.fault().size() <= kMostText && within(hand.finger(), kFarthest_m) &&
-         within(hand.proxy(), kFarthest_m) && within(hand.force_n(), kMostForce_N) && hand.proxy_radius() >= 0 &&
+  return hand.label().size() <= kMaxText && hand.fault().size() <= kMaxText && within(hand.finger(), kFarthest_m) &&
+         within(hand.proxy(), kFarthest_m) && within(hand.force_n(), kMaxForce_N) && hand.proxy_radius() >= 0 &&
          hand.proxy_radius() <= kFarthest_m && std::isfinite(hand.servo_rate_hz());
 }
 

@@ -22,7 +22,7 @@ ContentName nameOf(const proto::ShareName& in);
 /// Whether `a` counts where both are told of one object: by epoch, owner and change, in this order.
 bool isNewer(const proto::ShareItem& a, const proto::ShareItem& b);
 /// Of an object's look: with the rest of its item it fits in a packet.
-inline constexpr std::size_t kMostLook_bytes = 40'000;
+inline constexpr std::size_t kMaxLook_bytes = 40'000;
 /// Whether it makes sense.
 bool isItem(const proto::ShareItem& item);
 

@@ -4,9 +4,14 @@
 
 namespace hl {
 
+bool ShareProcess::startAgain() {
+  waiting_bytes_ = 0;
+  return process_.startAgain();
+}
+
 bool ShareProcess::send(const SharePacket& packet) {
   const std::size_t waiting_bytes = packet.lane == Lane::kStream ? 0 : packet.bytes.size();
-  if (waiting_bytes > 0 && waiting_bytes_ > kMostWaiting_bytes) return false;
+  if (waiting_bytes > 0 && waiting_bytes_ > kMaxWaiting_bytes) return false;
   if (!process_.send(bytesOf(packet))) return false;
   waiting_bytes_ += waiting_bytes;
   return true;

@@ -14,7 +14,7 @@ inline constexpr DdsProgram kShareProgram{
     "worlds are shared by hl-share, which is not here: install the package hl-share, or run scripts/deps --ros and "
     "scripts/build"};
 
-/// Ends with this object. What hl-share cannot send at once, as others are slow, waits there, up to kMostWaiting_bytes;
+/// Ends with this object. What hl-share cannot send at once, as others are slow, waits there, up to kMaxWaiting_bytes;
 /// then send() takes the stream alone, until receive() has heard that less waits.
 class ShareProcess final : public ShareLink {
  public:
@@ -25,13 +25,14 @@ class ShareProcess final : public ShareLink {
   bool send(const SharePacket& packet) override;
   std::optional<SharePacket> receive() override;
   bool ended() const override { return process_.ended(); }
+  bool startAgain() override;
 
-  static constexpr std::uint64_t kMostWaiting_bytes = 16'000'000;
+  static constexpr std::uint64_t kMaxWaiting_bytes = 16'000'000;
 
  private:
   DdsProcess process_;
   std::uint64_t waiting_bytes_ = 0;
-  std::string buffer_ = std::string(kMostShareMessage_bytes + 1, '\0');
+  std::string buffer_ = std::string(kMaxShareMessage_bytes + 1, '\0');
 };
 
 }  // namespace hl

@@ -24,13 +24,13 @@ struct Head {
 
 void checkShareName(const std::string& name, const char* what) {
   checkPrintable(name, what);
-  if (name.empty() || name.size() > kMostShareName || !std::all_of(name.begin(), name.end(), isOfName))
-    throw Error(std::string(what) + " is '" + name + "': it is made of 1 to " + std::to_string(kMostShareName) +
+  if (name.empty() || name.size() > kMaxShareName || !std::all_of(name.begin(), name.end(), isOfName))
+    throw Error(std::string(what) + " is '" + name + "': it is made of 1 to " + std::to_string(kMaxShareName) +
                 " letters, digits and _");
 }
 
 std::string shareNameLike(const std::string& name) {
-  std::string like = name.substr(0, std::min(name.find('.'), kMostShareName));
+  std::string like = name.substr(0, std::min(name.find('.'), kMaxShareName));
   std::replace_if(
       like.begin(), like.end(), [](char c) { return !isOfName(c); }, '_');
   return like.empty() ? "server" : like;
@@ -74,7 +74,7 @@ std::string bytesOf(const SharePacket& packet) {
 
 std::optional<SharePacket> sharePacketOf(std::span<const char> bytes) {
   Head head;
-  if (bytes.size() < sizeof head || bytes.size() > kMostShareMessage_bytes) return std::nullopt;
+  if (bytes.size() < sizeof head || bytes.size() > kMaxShareMessage_bytes) return std::nullopt;
   std::memcpy(&head, bytes.data(), sizeof head);
   if (head.lane > static_cast<std::uint64_t>(Lane::kInbox)) return std::nullopt;
   const auto rest = bytes.subspan(sizeof head);

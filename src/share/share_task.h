@@ -23,10 +23,10 @@ struct ShareTask {
 std::vector<std::string> wordsOf(const ShareTask& task);
 ShareTask shareTaskOf(const std::vector<std::string>& words);
 
-/// The name of a world or of a server in it: 1 to kMostShareName letters, digits and _. Throws hl::Error, which says
+/// The name of a world or of a server in it: 1 to kMaxShareName letters, digits and _. Throws hl::Error, which says
 /// `what` it is.
 void checkShareName(const std::string& name, const char* what);
-inline constexpr std::size_t kMostShareName = 32;
+inline constexpr std::size_t kMaxShareName = 32;
 /// A name like this one that is allowed: what is not becomes a _, and what is too much goes; "server" of nothing.
 std::string shareNameLike(const std::string& name);
 
@@ -42,6 +42,6 @@ struct ShareTaken {
   std::uint64_t bytes = 0;
 };
 /// No message is longer.
-inline constexpr std::size_t kMostShareMessage_bytes = kMostPacket_bytes + 16;
+inline constexpr std::size_t kMaxShareMessage_bytes = kMaxPacket_bytes + 16;
 
 }  // namespace hl

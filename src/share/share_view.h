@@ -3,6 +3,7 @@
 
 #include <hl.pb.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -20,8 +21,9 @@ struct PeerView {
 
 struct ShareView {
   std::string world, name;                  ///< of the world; of this server in it
-  std::string ended;                        ///< why it shares no more, in one line; empty: it does
-  ShareCounts counts{};                     ///< the last ones, once it has ended
+  std::string ended;                        ///< why it is not shared now, in one line; empty: it is
+  std::uint64_t starts = 0;                 ///< times that hl-share was started again, after it had ended
+  ShareCounts counts{};                     ///< the last ones, while it is not shared
   std::vector<PeerView> peers{};            ///< by name
   std::vector<proto::OtherDevice> hands{};  ///< of other servers, with the name of each; by server, then by number
 };

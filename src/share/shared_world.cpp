@@ -5,21 +5,22 @@
 #include <set>
 #include <utility>
 
-#include "session/vec_messages.h"
+#include "base/clock.h"
+#include "io/vec_messages.h"
 
 namespace hl {
 
 namespace {
 
 // An object that has not moved for so many looks rests: encoders and solvers pause for a moment.
-constexpr int kStillLooks = 3;
+constexpr int kStillLooks = 6;
 // What moves is told so often for those who join, and for those who have lost many packets.
 constexpr std::int64_t kKeyItem_ns = 1'000'000'000;
 // What was defined by this server before it was started anew ends, unless it has been defined again by then.
 constexpr std::int64_t kSettled_ns = 2'000'000'000;
 // In one packet of the stream: 1200 bytes, less than a frame of Ethernet, so that a lost frame costs one packet.
 constexpr int kPosesInPacket = 8;
-constexpr std::size_t kMostInboxOut = 1000;
+constexpr std::size_t kMaxInboxOut = 1000;
 
 // Packets of the stream replace older ones of their key.
 std::uint64_t streamKey(ServerId from, std::uint64_t slot) { return from * 0x9e3779b97f4a7c15U + slot; }
@@ -101,7 +102,7 @@ void SharedWorld::tellWinner(const proto::ShareItem& winner, const proto::ShareI
 }
 
 void SharedWorld::post(ServerId to, proto::ShareMessage message) {
-  if (inbox_out_.size() >= kMostInboxOut) inbox_out_.pop_front();
+  if (inbox_out_.size() >= kMaxInboxOut) inbox_out_.pop_front();
   inbox_out_.emplace_back(to, std::move(message));
 }
 
@@ -123,9 +124,9 @@ void SharedWorld::hearPoses(const proto::SharePoses& poses, std::int64_t now_ns)
 void SharedWorld::hearPush(const proto::SharePush& push) {
   const auto found = records_.find(push.id());
   const Vec3 impulse = vecOf(push.impulse_n_s()), point = vecOf(push.point_m());
-  constexpr double kMostImpulse_N_s = 1e3, kMostPoint_m = 1e9, kLongest_s = 10;
-  const bool sensible = impulse.allFinite() && impulse.norm() < kMostImpulse_N_s && point.allFinite() &&
-                        point.norm() < kMostPoint_m && push.duration_s() >= 0 && push.duration_s() <= kLongest_s;
+  constexpr double kMaxImpulse_N_s = 1e3, kMaxPoint_m = 1e9, kLongest_s = 10;
+  const bool sensible = impulse.allFinite() && impulse.norm() < kMaxImpulse_N_s && point.allFinite() &&
+                        point.norm() < kMaxPoint_m && push.duration_s() >= 0 && push.duration_s() <= kLongest_s;
   if (found == records_.end() || !isOwn(found->second) || !sensible) {
     ++counts_.refused;
     return;
@@ -305,7 +306,7 @@ void SharedWorld::adoptOrphans(std::int64_t now_ns) {
 void SharedWorld::forget(std::int64_t now_ns) {
   constexpr std::int64_t kKept_ns = 60'000'000'000;
   peers_.forget(now_ns);
-  forgetDeleted(records_.size() > kMostRecords ? now_ns : now_ns - kKept_ns);
+  forgetDeleted(records_.size() > kMaxRecords ? now_ns : now_ns - kKept_ns);
   full_ = false;
 }
 
@@ -318,11 +319,16 @@ void SharedWorld::forgetDeleted(std::int64_t before_ns) {
 
 // What was deleted makes room. Where there is none it is looked for once a beat, as the look takes long.
 bool SharedWorld::hasRoom() {
-  if (records_.size() >= kMostRecords && !full_) {
+  if (records_.size() >= kMaxRecords && !full_) {
     forgetDeleted(std::numeric_limits<std::int64_t>::max());
-    full_ = records_.size() >= kMostRecords;
+    full_ = records_.size() >= kMaxRecords;
   }
-  return records_.size() < kMostRecords;
+  return records_.size() < kMaxRecords;
+}
+
+void SharedWorld::linkAgain(std::int64_t deaf_ns, std::int64_t now_ns) {
+  peers_.hearAgain(deaf_ns, now_ns);
+  for (auto& [_, record] : records_) record.told.dirty |= isOwn(record);
 }
 
 void SharedWorld::sendItems() {
@@ -370,7 +376,7 @@ void SharedWorld::step(std::int64_t now_ns) {
   if (names_changed_) chooseContents(now_ns);
   contents_.step(now_ns);
   if (counts_.join_s == 0 && !peers_.all().empty() && contents_.fetching() == 0 && !replicas(now_ns).empty())
-    counts_.join_s = 1e-9 * static_cast<double>(now_ns - begin_ns_);
+    counts_.join_s = seconds(now_ns - begin_ns_);
 }
 
 std::vector<Replica> SharedWorld::replicas(std::int64_t now_ns) const {

@@ -76,9 +76,9 @@ class SharedWorld {
   /// False: the link takes none now.
   using Send = std::function<bool(const SharePacket& packet)>;
   /// That one server tells of.
-  static constexpr std::size_t kMostItems = 10'000;
+  static constexpr std::size_t kMaxItems = 10'000;
   /// Of all servers together, those that were deleted of late among them: all of one may be replaced at once.
-  static constexpr std::size_t kMostRecords = 2 * kMostItems;
+  static constexpr std::size_t kMaxRecords = 2 * kMaxItems;
 
   SharedWorld(const ShareSelf& self, std::int64_t now_ns, Send send);
 
@@ -86,7 +86,10 @@ class SharedWorld {
   const Peers& peers() const { return peers_; }
 
   void hear(const SharePacket& packet, std::int64_t now_ns);
-  /// The objects of this server as they are now, 60 times a second; `complete`: no other one is still being prepared.
+  /// The link was away since `deaf_ns` and knows nothing of what was told: all is told again, and who was there then is
+  /// not lost yet.
+  void linkAgain(std::int64_t deaf_ns, std::int64_t now_ns);
+  /// The objects of this server as they are now, 120 times a second; `complete`: no other one is still being prepared.
   void tell(const LocalItems& local, bool complete, std::int64_t now_ns);
   void tellHand(std::uint32_t number, const proto::OtherDevice& hand, std::int64_t now_ns);
   /// A hand has pressed on a replica whose owner has it as a body.

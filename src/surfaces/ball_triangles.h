@@ -23,20 +23,20 @@ class BallTriangles {
   bool meets(const std::array<Vec3, 3>& triangle) const {
     const auto& [a, b, c] = triangle;
     const double radius = radius_ + rounding_ + kRounding * a.cwiseAbs().maxCoeff();
-    const Vec3 middle = (a + b + c) / 3;
+    const Vec3 middle = (a + b + c) / 3, out = first_ - middle, across = (b - a).cross(c - a);
     const double around =
-        std::sqrt(std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
-    const Vec3 across = (b - a).cross(c - a);
-    const double length = across.norm();
-    const Vec3 normal = length > kFlattest * around * around ? Vec3(across / length) : Vec3::Zero();
-    const double from = normal.dot(first_ - middle), to = normal.dot(last_ - middle);
-    const double depth = (from > 0) != (to > 0) ? 0 : std::min(std::abs(from), std::abs(to)) * (1 - kNormalRounding);
-    if (depth > radius) return false;
-    const Vec3 foot = first_ - from * normal, way = (last_ - to * normal) - foot;
-    const double square = way.squaredNorm();
-    const double part = square > 0 ? std::clamp((middle - foot).dot(way) / square, 0.0, 1.0) : 0;
-    const double reach = std::sqrt(radius * radius - depth * depth) + around;
-    return (foot + part * way - middle).norm() <= reach * (1 + kNormalRounding) + kNormalRounding * radius;
+        std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()});
+    const double square = across.squaredNorm();
+    const double per_square = square > kFlattest * kFlattest * around * around ? 1 / square : 0;
+    const double from = across.dot(out), to = across.dot(last_ - middle);
+    const double least = (from > 0) != (to > 0) ? 0 : std::min(std::abs(from), std::abs(to)) * (1 - kNormalRounding);
+    const double left = radius * radius - least * least * per_square;
+    if (left < 0) return false;
+    const Vec3 foot = out - from * per_square * across, way = (last_ - first_) - (to - from) * per_square * across;
+    const double length = way.squaredNorm();
+    const double part = length > 0 ? std::clamp(-foot.dot(way) / length, 0.0, 1.0) : 0;
+    const double reach = (std::sqrt(left) + std::sqrt(around)) * (1 + kNormalRounding) + kNormalRounding * radius;
+    return (foot + part * way).squaredNorm() <= reach * reach;
   }
 
  private:

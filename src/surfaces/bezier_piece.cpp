@@ -20,7 +20,7 @@ struct OnCurve {
 
 // De Casteljau's algorithm over every `step`-th of `degree` + 1 points.
 OnCurve onCurve(const Weighted* points, std::size_t degree, std::size_t step, double part) {
-  std::array<Weighted, kMostPatchOrder> p;
+  std::array<Weighted, kMaxPatchOrder> p;
   for (std::size_t i = 0; i <= degree; ++i) p[i] = points[i * step];
   Weighted derivative = Weighted::Zero();
   for (std::size_t s = degree; s > 0; --s) {
@@ -42,7 +42,7 @@ struct OnSurface {
 };
 
 OnSurface onSurface(const WeightedNet& net, NetSize size, double u, double v) {
-  std::array<Weighted, kMostPatchOrder> at, along;
+  std::array<Weighted, kMaxPatchOrder> at, along;
   for (std::size_t j = 0; j <= size.degree_v; ++j) {
     const OnCurve row = onCurve(&net[j * (size.degree_u + 1)], size.degree_u, 1, u);
     at[j] = row.at;

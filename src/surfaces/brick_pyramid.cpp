@@ -66,6 +66,61 @@ void forEachBrick(const std::array<std::uint32_t, 3>& side, const Set& set) {
 BrickPyramid::BrickPyramid(const VoxelGrid& grid) : cells_{grid.cells(0), grid.cells(1), grid.cells(2)} {
   levels_.push_back(overSamples(grid));
   while (levels_.back().ranges.size() > 1) levels_.push_back(above(levels_.back()));
+  measureSlices();
+  countRanges();
+}
+
+void BrickPyramid::measureSlices() {
+  const Level& bricks = levels_.front();
+  for (std::size_t axis = 0; axis < 3; ++axis) slices_[axis].assign(bricks.side[axis], {kNoEnd, -kNoEnd});
+  forEachPlace({0, 0, 0}, bricks.side, [&](const Place& at) {
+    const ValueRange& brick = range(0, at[0], at[1], at[2]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ValueRange& slice = slices_[axis][at[axis]];
+      slice = {std::min(slice.low, brick.low), std::max(slice.high, brick.high)};
+    }
+  });
+}
+
+BrickPyramid::Region BrickPyramid::regionHolding(double value) const {
+  Region region{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto holds = [value](const ValueRange& slice) { return slice.holds(value); };
+    const auto& slices = slices_[axis];
+    const auto first = std::find_if(slices.begin(), slices.end(), holds);
+    if (first == slices.end()) return {};
+    const auto end = std::find_if(slices.rbegin(), slices.rend(), holds).base();
+    region.first[axis] = kCells * static_cast<std::uint32_t>(first - slices.begin());
+    region.end[axis] = std::min(kCells * static_cast<std::uint32_t>(end - slices.begin()), cells_[axis]);
+  }
+  return region;
+}
+
+void BrickPyramid::countRanges() {
+  constexpr std::size_t kMaxBins = 1024;
+  const auto& bricks = levels_.front().ranges;
+  std::vector<std::int64_t> change(std::min(kMaxBins, bricks.size()) + 1);
+  holding_.resize(change.size() - 1);
+  for (const ValueRange& brick : bricks) {
+    if (!(brick.low <= brick.high)) continue;
+    ++change[binOf(brick.low)];
+    --change[binOf(brick.high) + 1];
+  }
+  std::int64_t count = 0;
+  for (std::size_t bin = 0; bin < holding_.size(); ++bin) {
+    count += change[bin];
+    holding_[bin] = static_cast<std::uint32_t>(count);
+  }
+}
+
+std::size_t BrickPyramid::binOf(double value) const {
+  const double part = (value - range().low) / (double{range().high} - range().low);
+  const auto bins = static_cast<double>(holding_.size());
+  return part > 0 ? static_cast<std::size_t>(std::min(part * bins, bins - 1)) : 0;
+}
+
+std::uint64_t BrickPyramid::countHolding(double value) const {
+  return range().holds(value) ? holding_[binOf(value)] : 0;
 }
 
 BrickPyramid::Level BrickPyramid::emptyLevel(const std::array<std::uint32_t, 3>& side) {
@@ -102,6 +157,12 @@ BrickPyramid::Level BrickPyramid::above(const Level& beneath) {
     level.ranges[(std::size_t{z} * level.side[1] + y) * level.side[0] + x] = range;
   });
   return level;
+}
+
+std::size_t BrickPyramid::bytes() const {
+  std::size_t ranges = bricks();
+  for (const auto& slices : slices_) ranges += slices.size();
+  return sizeof(*this) + ranges * sizeof(ValueRange) + holding_.size() * sizeof(std::uint32_t);
 }
 
 std::size_t BrickPyramid::bricks() const {

@@ -11,10 +11,14 @@
 //   holds(l, place)         whether the surface may be in a brick near the ball
 // and for the brick for which holds() was asked last
 //   low(), high()           where it may be, in the coordinates of the ball
-//   mayCross(middle)        whether it may be in the part with this middle, at a glance
-//   sift(l, parts)          leaves out parts where it is not, or not near the ball
+//   forEachPart(l, first, end, v)
+//                           calls v(place) for its parts from `first` to before `end` in which it may be, at a glance
+//   sift(l, parts)          leaves out parts where it is not, or not near the ball; may make the order of others later
 //   visitCell(place, v)     calls v(id) for each triangle of a cell
 //   cost()                  of all these questions, in looks at boxes
+// and may have
+//   findCells(first, end, parts)
+//                           in place of forEachPart() and sift() for cells, which are then not compared as boxes
 #pragma once
 
 #include <algorithm>
@@ -34,9 +38,9 @@ struct BrickPart {
   double order;
   std::array<std::uint32_t, 3> at;
 };
-inline constexpr std::size_t kMostBrickParts = 64;
+inline constexpr std::size_t kMaxBrickParts = 64;
 static_assert(BrickPyramid::kCells == 4 && BrickPyramid::kBricks == 4);
-using BrickParts = FixedVector<BrickPart, kMostBrickParts>;
+using BrickParts = FixedVector<BrickPart, kMaxBrickParts>;
 
 template <typename Bricks>
 class BrickWalk {
@@ -77,22 +81,12 @@ class BrickWalk {
     return level < 0 ? bricks_.cells(axis) : bricks_.side(level, axis);
   }
 
-  // Adds the pieces of a level that the ball may meet and for which may(middle) is true.
-  template <typename May>
-  void add(int level, const std::array<Span, 3>& span, const May& may, BrickParts& parts) {
-    const double size = sideOf(level);
-    const EqualBoxes boxes(ball_, scale_, Vec3::Constant(size / 2));
-    BrickPart part{};
-    for (std::uint32_t z = span[2].first; z < span[2].end; ++z) {
-      for (std::uint32_t y = span[1].first; y < span[1].end; ++y) {
-        for (std::uint32_t x = span[0].first; x < span[0].end; ++x) {
-          part.at = {x, y, z};
-          const Vec3 middle = bricks_.origin() + size * Vec3(x + 0.5, y + 0.5, z + 0.5);
-          ++looked_;
-          if (may(middle) && boxes.meets(middle, part.order)) parts.push(part);
-        }
-      }
-    }
+  // Adds a piece that the ball may meet. `boxes`: of the size of its level.
+  void add(const EqualBoxes& boxes, const Place& at, double size, BrickParts& parts) {
+    BrickPart part{0, at};
+    ++looked_;
+    if (boxes.meets(bricks_.origin() + size * Vec3(at[0] + 0.5, at[1] + 0.5, at[2] + 0.5), part.order))
+      parts.push(part);
   }
 
   // The bricks of a level that are so large that the ball meets few of them.
@@ -100,26 +94,35 @@ class BrickWalk {
     const Vec3 size = ball_.high() - ball_.low();
     int level = 0;
     while (level + 1 < bricks_.levels() && sideOf(level) < kPerBall * size.maxCoeff()) ++level;
-    std::array<Span, 3> span{};
+    Place first{}, end{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<Eigen::Index>(axis);
-      span[axis] = spanOf(axis, ball_.low()[a], ball_.high()[a], 0, countOf(level, axis), sideOf(level));
+      const Span span = spanOf(axis, ball_.low()[a], ball_.high()[a], 0, countOf(level, axis), sideOf(level));
+      first[axis] = span.first;
+      end[axis] = span.end;
     }
-    const auto any = [](const Vec3&) { return true; };
-    add(level, span, any, parts);
+    const EqualBoxes boxes(ball_, scale_, Vec3::Constant(sideOf(level) / 2));
+    forEachPlace(first, end, [&](const Place& at) { add(boxes, at, sideOf(level), parts); });
     return level;
   }
 
   void findParts(int level, const Place& at, BrickParts& parts) {
-    std::array<Span, 3> span{};
+    Place first{}, end{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<Eigen::Index>(axis);
       const std::uint32_t per_brick = level == 0 ? BrickPyramid::kCells : BrickPyramid::kBricks;
-      const std::uint32_t begin = at[axis] * per_brick, end = std::min(begin + per_brick, countOf(level - 1, axis));
-      span[axis] = spanOf(axis, bricks_.low()[a], bricks_.high()[a], begin, end, sideOf(level - 1));
+      const std::uint32_t begin = at[axis] * per_brick, past = std::min(begin + per_brick, countOf(level - 1, axis));
+      const Span span = spanOf(axis, bricks_.low()[a], bricks_.high()[a], begin, past, sideOf(level - 1));
+      if (span.first >= span.end) return;
+      first[axis] = span.first;
+      end[axis] = span.end;
     }
-    const auto crossed = [this](const Vec3& middle) { return bricks_.mayCross(middle); };
-    add(level - 1, span, crossed, parts);
+    if constexpr (requires { bricks_.findCells(first, end, parts); }) {
+      if (level == 0) return bricks_.findCells(first, end, parts);
+    }
+    const double size = sideOf(level - 1);
+    const EqualBoxes boxes(ball_, scale_, Vec3::Constant(size / 2));
+    bricks_.forEachPart(level, first, end, [&](const Place& part) { add(boxes, part, size, parts); });
     bricks_.sift(level, parts);
   }
 

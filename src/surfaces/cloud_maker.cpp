@@ -24,6 +24,9 @@ constexpr const char* kNoPoints = "there are no points in it";
 constexpr std::size_t kGrain = 256;  // blocks for one thread at a time
 using BlockRange = oneapi::tbb::blocked_range<std::size_t>;
 
+// A cloud of so many points is not made coarser, though its blocks may have one point each: 4 MB at most.
+constexpr std::size_t kKeptExactly = 10'000;
+
 // So many codes of spacings are an octave; those from kUsual on are larger than is usual.
 constexpr double kCodeRatio = 1.0442737824274138;  // 2^(1/16)
 constexpr int kUsual = 223;                        // kept spacings reach from 2^-14 to 2^2 times the usual one
@@ -62,7 +65,8 @@ class CloudMaker {
 void CloudMaker::order() {
   sortPoints(input_.points);
   arrangePoints(input_.points, input_.lattice.step);
-  const int powers = input_.made_before ? 0 : coarserBy(input_.points);
+  const bool is_exact = input_.made_before || input_.points.size() <= kKeptExactly;
+  const int powers = is_exact ? 0 : coarserBy(input_.points);
   if (powers > 0) {
     CloudLattice same = input_.lattice;
     coarsen(input_.colours, same, powers);
@@ -201,7 +205,6 @@ void CloudMaker::measure() {
   for (std::size_t block = 0; block < spacing.size(); ++block) {
     const auto least = std::lower_bound(kept.begin(), kept.end() - 1, spacing[block]);  // rounded up
     cloud_->blocks_[block].spacing = static_cast<std::uint8_t>(least - kept.begin());
-    cloud_->largest_spacing_ = std::max(cloud_->largest_spacing_, *least);
   }
 }
 
@@ -238,7 +241,7 @@ Bulk bulkOf(const std::vector<Vec3>& positions) {
 
 // How many points of the lattice stand for positions that differ.
 std::size_t mergedOn(const CloudLattice& lattice, std::vector<Vec3> positions) {
-  const auto stepOf = [&](const Vec3& p) -> Vec3 { return ((p - lattice.origin) / lattice.step[0]).array().round(); };
+  const auto step_of = [&](const Vec3& p) -> Vec3 { return ((p - lattice.origin) / lattice.step[0]).array().round(); };
   const auto before = [](const Vec3& a, const Vec3& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
   };
@@ -246,7 +249,7 @@ std::size_t mergedOn(const CloudLattice& lattice, std::vector<Vec3> positions) {
   std::sort(positions.begin(), positions.end(), before);
   positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
   const std::size_t different = positions.size();
-  for (Vec3& p : positions) p = stepOf(p);
+  for (Vec3& p : positions) p = step_of(p);
   std::sort(positions.begin(), positions.end(), before);
   return different - static_cast<std::size_t>(std::unique(positions.begin(), positions.end()) - positions.begin());
 }

@@ -70,8 +70,8 @@ void sortPoints(std::vector<LatticePoint>& points) {
 void arrangePoints(std::vector<LatticePoint>& points, const Vec3& step) { arrange(points, step); }
 
 int coarserBy(const std::vector<LatticePoint>& arranged) {
-  constexpr std::size_t kMostWideBlocks = 20;  // one in so many
-  std::array<std::size_t, 33> needed{};        // blocks by the powers of two that they need
+  constexpr std::size_t kMaxWideBlocks = 20;  // one in so many
+  std::array<std::size_t, 33> needed{};       // blocks by the powers of two that they need
   std::size_t blocks = 0;
   for (std::size_t i = 0; i < arranged.size(); i += CloudPoints::kPerBlock, ++blocks) {
     const LatticeBox box =
@@ -83,7 +83,7 @@ int coarserBy(const std::vector<LatticePoint>& arranged) {
   std::size_t wide = blocks;
   for (std::size_t powers = 0;; ++powers) {
     wide -= needed[powers];
-    if (wide * kMostWideBlocks <= blocks) return static_cast<int>(powers);
+    if (wide * kMaxWideBlocks <= blocks) return static_cast<int>(powers);
   }
 }
 

@@ -30,7 +30,7 @@ struct LatticeBox {
 class CloudPoints {
  public:
   static constexpr std::size_t kPerBlock = 16, kPerNode = 8;
-  static constexpr int kMostLevels = 12;
+  static constexpr int kMaxLevels = 12;
 
   std::size_t blocks() const { return blocks_.size(); }
   std::size_t size() const { return size_; }
@@ -44,9 +44,8 @@ class CloudPoints {
   Rgb colour(std::size_t slot) const { return colours_[slot]; }
   /// Distance between neighbours in this block, m: of as many points on a square grid.
   double spacing(std::size_t block) const { return spacings_[blocks_[block].spacing]; }
-  /// Of most of the blocks, and of all.
+  /// Of most of the blocks.
   double usualSpacing() const { return usual_spacing_; }
-  double largestSpacing() const { return largest_spacing_; }
 
   /// Above the blocks, level 0, there are levels() - 1 of nodes over kPerNode parts each; the last has one.
   int levels() const { return static_cast<int>(nodes_.size()) + 1; }
@@ -70,7 +69,7 @@ class CloudPoints {
   };
 
   CloudLattice lattice_;
-  double error_m_ = 0, usual_spacing_ = 0, largest_spacing_ = 0;
+  double error_m_ = 0, usual_spacing_ = 0;
   std::size_t size_ = 0;
   HugeVector<Block> blocks_;
   HugeVector<std::array<std::uint16_t, 3>> offsets_;  // from the block's low, by slot

@@ -9,7 +9,7 @@ namespace hl {
 
 void CloudNeighbours::add(const Vec3& at, double square) {
   if (!takes(square)) return;
-  std::size_t place = size_ < kMost ? size_++ : kMost - 1;
+  std::size_t place = size_ < kMax ? size_++ : kMax - 1;
   for (; place > 0 && square_[place - 1] > square; --place) {
     square_[place] = square_[place - 1];
     at_[place] = at_[place - 1];
@@ -76,7 +76,7 @@ void CloudSearch::gather(int level, std::size_t number, std::size_t around, doub
   if (!near.whole || (level == 0 && number == around)) return;
   if (squareBetween(points_.box(level, number), points_.box(0, around)) > square) return;
   if (level == 0) {
-    near.whole = near.size < Neighbourhood::kMost;
+    near.whole = near.size < Neighbourhood::kMax;
     if (near.whole) near.blocks[near.size++] = number;
     return;
   }
@@ -95,7 +95,7 @@ std::array<CloudNeighbours, CloudPoints::kPerBlock> CloudSearch::aroundAll(std::
     farthest = std::max(farthest, nearest[i].farthest());
   }
   Neighbourhood near;
-  near.whole = count >= CloudNeighbours::kMost;
+  near.whole = count >= CloudNeighbours::kMax;
   gather(points_.levels() - 1, 0, block, farthest, near);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 place = placeOf(first + i);

@@ -11,13 +11,13 @@ namespace hl {
 /// The nearest points so far, nearest first. Metres along the axes of the lattice, from its first point.
 class CloudNeighbours {
  public:
-  static constexpr std::size_t kNeighbours = 12, kMost = kNeighbours + 1;  // with the point itself
+  static constexpr std::size_t kNeighbours = 12, kMax = kNeighbours + 1;  // with the point itself
 
   std::size_t size() const { return size_; }
   const Vec3& operator[](std::size_t i) const { return at_[i]; }
   /// Squared distance of the last, m^2.
   double farthest() const { return size_ > 0 ? square_[size_ - 1] : 0; }
-  bool takes(double square) const { return size_ < kMost || square < square_[kMost - 1]; }
+  bool takes(double square) const { return size_ < kMax || square < square_[kMax - 1]; }
   void add(const Vec3& at, double square);
 
   /// Distance between neighbours of as many points on a square grid, m; 0 of one point.
@@ -26,8 +26,8 @@ class CloudNeighbours {
   Vec3 normal() const;
 
  private:
-  std::array<double, kMost> square_{};
-  std::array<Vec3, kMost> at_{};
+  std::array<double, kMax> square_{};
+  std::array<Vec3, kMax> at_{};
   std::size_t size_ = 0;
 };
 
@@ -41,8 +41,8 @@ class CloudSearch {
  private:
   /// Blocks, not too many.
   struct Neighbourhood {
-    static constexpr std::size_t kMost = 64;
-    std::array<std::size_t, kMost> blocks;
+    static constexpr std::size_t kMax = 64;
+    std::array<std::size_t, kMax> blocks;
     std::size_t size = 0;
     bool whole = true;
   };

@@ -26,6 +26,14 @@ bool DepthCells::exists(const HeightCell& cell) const {
   return plain_ || isTriangle(pointAt(at[0]), pointAt(at[1]), pointAt(at[2]));
 }
 
+double DepthCells::nearness(const HeightCell& cell, double column, double row) const {
+  if (!exists(cell)) return 0;
+  const double right = column - cell.column, down = row - cell.row, most = std::max(right, down);
+  const Pixel beside = cell.half == 0 ? Pixel{cell.column + 1, cell.row} : Pixel{cell.column, cell.row + 1};
+  return (1 - most) / depthAt({cell.column, cell.row}) + std::abs(right - down) / depthAt(beside) +
+         std::min(right, down) / depthAt({cell.column + 1, cell.row + 1});
+}
+
 // Three pixels at depths d (1 + join) and less, along ways w = (x / z, y / z, 1), span a tetrahedron with the camera,
 // of six volumes d^3 / (fx fy) or more, whose height is at most d |w|: twice its base is d^2 / (fx fy |w|) or more. An
 // edge has at most the length d ((1 + join) (1 / fx + 1 / fy) + join |w|). Axes of the condition K make the base over

@@ -39,6 +39,9 @@ class DepthCells {
   std::array<Vec3, 3> corners(ElementId id) const;
   /// Whether the triangle is there.
   bool exists(const HeightCell& cell) const;
+  /// 1 / depth, m⁻¹, of the triangle where the camera sees it at a column and row; 0: it is not there. On a plane
+  /// 1 / depth is linear in both.
+  double nearness(const HeightCell& cell, double column, double row) const;
 
  private:
   bool isPlain() const;

@@ -14,6 +14,12 @@ namespace hl {
 
 using Pixel = DepthCells::Pixel;
 
+namespace {
+
+constexpr double kSiteRounding = 1e-12;  // of the product of a depth and another's inverse
+
+}  // namespace
+
 DepthFrame::DepthFrame(std::shared_ptr<const DepthImage> seen, const GridFrame& frame)
     : cells_(std::move(seen), frame), inverse_(frame.axes.inverse()) {
   checkCamera(image().camera);
@@ -102,16 +108,25 @@ Site DepthFrame::siteOf(const Vec3& point) const {
   const double u = camera.cx + camera.fx * q.x() / q.z(), v = camera.cy + camera.fy * q.y() / q.z();
   if (!(u >= 0 && v >= 0 && u < pixels().columns() - 1.0 && v < pixels().rows() - 1.0)) return Site::kOpen;
   const auto i = static_cast<std::uint32_t>(u), j = static_cast<std::uint32_t>(v);
+  const double nearer = cells_.nearness({i, j, u - i >= v - j ? 0U : 1U}, u, v) * q.z();
+  if (nearer > 0)
+    return nearer > 1 + kSiteRounding ? Site::kMatter : nearer < 1 - kSiteRounding ? Site::kOpen : Site::kBoundary;
+  return siteInGap({i, j}, q.z());
+}
+
+// Where no triangle is, it is behind the surface if it is behind all that is around.
+Site DepthFrame::siteInGap(const Pixel& pixel, double depth) const {
+  const auto [i, j] = pixel;
   float low = std::numeric_limits<float>::infinity(), high = 0;
-  for (const float depth :
+  for (const float corner :
        {pixels().at(i, j), pixels().at(i + 1, j), pixels().at(i, j + 1), pixels().at(i + 1, j + 1)}) {
-    if (!(depth > 0)) continue;
-    low = std::min(low, depth);
-    high = std::max(high, depth);
+    if (!(corner > 0)) continue;
+    low = std::min(low, corner);
+    high = std::max(high, corner);
   }
-  if (!(q.z() >= low)) return Site::kOpen;
-  if (q.z() > high) return Site::kMatter;
-  return camera.joins(low, low, high) ? Site::kBoundary : Site::kOpen;
+  if (!(depth >= low)) return Site::kOpen;
+  if (depth > high) return Site::kMatter;
+  return image().camera.joins(low, low, high) ? Site::kBoundary : Site::kOpen;
 }
 
 std::shared_ptr<const PrimitiveSource> DepthFrame::placed(const Mat3& linear, const Vec3& offset) const {

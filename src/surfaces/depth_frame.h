@@ -44,6 +44,7 @@ class DepthFrame final : public PrimitiveSource {
 
  private:
   const DepthPixels& pixels() const { return cells_.pixels(); }
+  Site siteInGap(const DepthCells::Pixel& pixel, double depth) const;
   Vec3 normalAt(std::uint32_t column, std::uint32_t row, const Vec3& otherwise) const;
   Vec2 texcoordAt(const DepthCells::Pixel& pixel) const;
   DrawnMesh every(std::uint32_t step) const;

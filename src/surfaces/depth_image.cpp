@@ -28,7 +28,7 @@ void inPieces(std::size_t pixels, const Each& each) {
 void follow(const HeightGrid& now, double scale_m, const DepthImage& before, double smoothing, DepthPixels& pixels,
             std::vector<std::uint8_t>& held) {
   static constexpr std::array<std::uint8_t, kPiece> kAllSeen{};
-  const FollowRule rule{static_cast<float>(before.camera.join), static_cast<float>(1 - smoothing), kMostHeld};
+  const FollowRule rule{static_cast<float>(before.camera.join), static_cast<float>(1 - smoothing), kMaxHeld};
   inPieces(pixels.count(), [&](std::size_t first, std::size_t count) {
     std::array<float, kPiece> depths;
     readDepths(now.list(), first, count, scale_m, depths.data());

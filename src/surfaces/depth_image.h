@@ -28,12 +28,12 @@ struct DepthImage {
 
 /// The depths of an image, `scale_m` metres for each unit, each of them drawn toward what `before` has at the pixel:
 /// before + (1 - smoothing) (now - before), where both are one surface. `smoothing`: 0..1, of one image to the next;
-/// above 0, a pixel that is missing keeps what it was for up to kMostHeld images. `before` may be null, or an image of
+/// above 0, a pixel that is missing keeps what it was for up to kMaxHeld images. `before` may be null, or an image of
 /// another size or camera: then it does not count.
 std::shared_ptr<const DepthImage> smoothed(const HeightGrid& now, double scale_m, const DepthCamera& camera,
                                            const DepthImage* before, double smoothing);
 
 /// A quarter of a second at 30 Hz.
-inline constexpr std::uint8_t kMostHeld = 8;
+inline constexpr std::uint8_t kMaxHeld = 8;
 
 }  // namespace hl

@@ -73,7 +73,7 @@ HWY_INLINE hn::Mask<D> joined(D d, hn::Vec<D> least, hn::Vec<D> most, hn::Vec<D>
 
 // The cells of a band that are bounded together.
 struct CellBounds {
-  HWY_ALIGN float low[kMostSide * 8], high[kMostSide * 8];
+  HWY_ALIGN float low[kMaxSide * 8], high[kMaxSide * 8];
 };
 
 HWY_INLINE std::size_t addRow(const float* row, const float* below, std::size_t cells, float join, CellBounds& bounds) {

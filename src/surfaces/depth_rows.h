@@ -40,9 +40,9 @@ struct CellBand {
   std::size_t pixels;  ///< in a row: one more than cells
   std::size_t rows;    ///< of cells
 };
-/// Bounds of the triangles that are joined, for each `side` cells of the band, at most kMostSide. Returns the number of
+/// Bounds of the triangles that are joined, for each `side` cells of the band, at most kMaxSide. Returns the number of
 /// triangles.
 std::size_t boundCells(const CellBand& band, float join, std::size_t side, DepthRange* tiles);
-inline constexpr std::size_t kMostSide = 64;
+inline constexpr std::size_t kMaxSide = 64;
 
 }  // namespace hl

@@ -189,7 +189,7 @@ class DepthWalk {
 
   static constexpr double kRounding = 2e-6;  // of places and directions in float, some units of 2^-24
   static constexpr std::uint32_t kCellsPerLook = 4;
-  static constexpr std::size_t kMostFound = 128;
+  static constexpr std::size_t kMaxFound = 128;
   static constexpr std::size_t kTilesOfTile = std::size_t{DepthTiles::kTiles} * DepthTiles::kTiles;
 
   const DepthCells& cells_;
@@ -199,7 +199,7 @@ class DepthWalk {
   const Range columns_, rows_;
   std::size_t looked_ = 0, count_ = 0;
   std::size_t found_count_ = 0;
-  std::array<Found, kMostFound> found_;
+  std::array<Found, kMaxFound> found_;
   std::array<Tile, (DepthTiles::kMaxLevels + 1) * kTilesOfTile> waiting_;
 };
 

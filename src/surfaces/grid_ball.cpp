@@ -28,6 +28,7 @@ GridMetric::GridMetric(const GridFrame& frame) : inverse(frame.axes.inverse()), 
   const double a = q(0, 0) / w - tilt.x() * tilt.x(), b = q(1, 1) / w - tilt.y() * tilt.y();
   const double skew = std::abs(q(0, 1) / w - tilt.x() * tilt.y()) / std::sqrt(a * b);
   curve = (1 - skew) * Vec2(a, b);
+  slopes = inverse * inverse.transpose();
 }
 
 GridBall::GridBall(const GridMetric& metric, const Vec3& from, const Vec3& motion, double radius)

@@ -24,6 +24,7 @@ struct GridMetric {
   double lift;   ///< units of the samples: rho of a ball of 1 m
   Vec2 tilt;     ///< b
   Vec2 curve;    ///< a diagonal matrix not above A, so that d^T A d >= curve . d^2; above 0
+  Mat3 slopes;   ///< per m^2: n . slopes n is the square of the slope in metres of a function with the gradient n
 };
 
 /// The part of the way from `begin` to `end` (fractions of the motion) counts.

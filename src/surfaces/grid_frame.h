@@ -6,6 +6,9 @@
 
 namespace hl {
 
+/// Of a length between samples, m, or of a factor on samples, that somebody gives.
+inline constexpr double kMinGridStep = 1e-12, kMaxGridStep = 1e9;
+
 /// p = origin + axes (column, row, value). The columns of `axes` are in m per grid step and m per unit of the samples.
 struct GridFrame {
   Mat3 axes = Mat3::Identity();

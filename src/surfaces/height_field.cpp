@@ -26,13 +26,23 @@ HeightField::HeightField(const HeightField& other, const GridFrame& frame)
 }
 
 void requireTriangles(const HeightField& field) {
-  if (field.triangles() == 0) throw Error("all its samples are missing");
+  if (field.triangles() == 0) throw Error("its samples are missing, or lack neighbours: there is nothing to touch");
 }
 
 // A triangle has at least the area |det| / (2 |M_w|): its shadow along the third axis.
+void requireSlopes(const HeightField& field) {
+  const Mat3& axes = field.frame().axes;
+  const double range = field.pyramid().highest() - field.pyramid().lowest();
+  const double longest = axes.col(0).norm() + axes.col(1).norm() + range * axes.col(2).norm();
+  if (std::abs(axes.determinant()) > 10 * kSliver * longest * longest * axes.col(2).norm()) return;
+  throw Error(
+      "a height field rises by 1e5 times its spacing or more: give it another spacing or vertical scale, or name the "
+      "value of missing samples");
+}
+
 void HeightField::checkFrame() {
   const Mat3& axes = frame_.axes;
-  const double determinant = axes.determinant(), range = pyramid_->highest() - pyramid_->lowest();
+  const double determinant = axes.determinant();
   if (!axes.allFinite() || !frame_.origin.allFinite() || !(std::abs(determinant) > 0))
     throw Error("a height field needs spacings and a vertical scale that are not 0");
   for (const double column : {0.0, grid_->columns() - 1.0}) {
@@ -43,11 +53,6 @@ void HeightField::checkFrame() {
   }
   if (!withinReach(bounds_.min) || !withinReach(bounds_.max))
     throw Error("a height field reaches beyond 1e9 m: give it another scale, or name the value of missing samples");
-  const double longest = axes.col(0).norm() + axes.col(1).norm() + range * axes.col(2).norm();
-  if (!(std::abs(determinant) > 10 * kSliver * longest * longest * axes.col(2).norm()))
-    throw Error(
-        "a height field rises by 1e5 times its spacing or more: give it another vertical scale, or name the "
-        "value of missing samples");
   mirrored_ = determinant > 0;
   across_ = axes.inverse();
 }
@@ -128,7 +133,9 @@ double HeightField::error_m() const {
   return 0.25 * twist * frame_.axes.col(2).norm();
 }
 
+// Only now: what a file says of its scale may have been changed.
 std::unique_ptr<const SpatialIndex> HeightField::makeIndex() const {
+  requireSlopes(*this);
   return std::make_unique<HeightIndex>(*grid_, *pyramid_, frame_, bounds_);
 }
 

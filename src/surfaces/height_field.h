@@ -16,7 +16,7 @@ namespace hl {
 /// numbers are never proposed. Immutable; shares grid and pyramid with its copies in other places.
 class HeightField final : public PrimitiveSource {
  public:
-  /// Throws hl::Error where heights lie beyond 1e9 m, or cells are too thin or too steep to be triangles.
+  /// Throws hl::Error where heights lie beyond 1e9 m. makeIndex() throws as requireSlopes() does.
   HeightField(std::shared_ptr<const HeightGrid> grid, const GridFrame& frame);
 
   ElementId count() const override;
@@ -65,5 +65,7 @@ class HeightField final : public PrimitiveSource {
 
 /// Throws hl::Error if all samples are missing, or lack a neighbour.
 void requireTriangles(const HeightField& field);
+/// Throws hl::Error if it is so steep that triangles of it could be slivers.
+void requireSlopes(const HeightField& field);
 
 }  // namespace hl

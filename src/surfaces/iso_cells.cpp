@@ -1,6 +1,21 @@
 #include "surfaces/iso_cells.h"
 
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+
 namespace hl {
+
+// Bounds of bricks are float32.
+Volume::Volume(VoxelGrid of) : grid(std::move(of)), pyramid(grid) {
+  const ValueRange& range = pyramid.range();
+  if (!(range.low <= range.high) || (std::isfinite(range.low) && std::isfinite(range.high))) return;
+  std::ostringstream text;
+  text << "its scale (the slope of a NIfTI file) of " << grid.values().scale << " and offset of "
+       << grid.values().offset << " take values beyond 3.4e38";
+  throw Error(text.str());
+}
 
 ElementId IsoCells::count() const {
   const VoxelGrid& grid = volume_->grid;
@@ -20,8 +35,7 @@ ElementId IsoCells::idOf(const IsoCell& cell, unsigned triangle) const {
 }
 
 IsoCell IsoCells::at(const Place& place) const {
-  IsoCell cell{place, volume_->grid.cornersOf(place[0], place[1], place[2]), nullptr};
-  for (double& value : cell.value) value = inward_ * (value - iso_.value);
+  IsoCell cell{place, valuesAt(place), nullptr};
   findTriangles(cell);
   return cell;
 }

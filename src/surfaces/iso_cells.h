@@ -11,6 +11,7 @@
 #include "surfaces/brick_pyramid.h"
 #include "surfaces/grid_frame.h"
 #include "surfaces/iso_cell.h"
+#include "surfaces/sample_bound.h"
 #include "surfaces/voxel_grid.h"
 
 namespace hl {
@@ -40,7 +41,8 @@ struct IsoChoice {
 
 /// Samples with their bounds, shared by all surfaces of a volume. Immutable.
 struct Volume {
-  explicit Volume(VoxelGrid of) : grid(std::move(of)), pyramid(grid) {}
+  /// Throws hl::Error where the scale takes values beyond what float32 has.
+  explicit Volume(VoxelGrid of);
 
   std::size_t bytes() const { return grid.bytes() + pyramid.bytes(); }
 
@@ -56,15 +58,27 @@ class IsoCells {
   using Place = std::array<std::uint32_t, 3>;
 
   IsoCells(std::shared_ptr<const Volume> volume, const GridFrame& frame, const IsoValue& iso)
-      : volume_(std::move(volume)), frame_(frame), iso_(iso), inward_(iso.solid == SolidSide::kAbove ? 1 : -1) {}
+      : volume_(std::move(volume)),
+        frame_(frame),
+        iso_(iso),
+        inward_(iso.solid == SolidSide::kAbove ? 1 : -1),
+        bound_(volume_->grid, iso.value, inward_) {}
 
   const std::shared_ptr<const Volume>& volume() const { return volume_; }
   const GridFrame& frame() const { return frame_; }
   const IsoValue& iso() const { return iso_; }
   /// 1 or -1: sign of the change of values on the way into the matter.
   double inward() const { return inward_; }
+  /// Parts the samples of the matter from the others.
+  const SampleBound& bound() const { return bound_; }
 
   IsoCell at(const Place& place) const;
+  /// At the corners of a cell, relative to the iso value: inside is >= 0.
+  std::array<double, kCellCorners> valuesAt(const Place& place) const {
+    std::array<double, kCellCorners> values = volume_->grid.cornersOf(place[0], place[1], place[2]);
+    for (double& value : values) value = inward_ * (value - iso_.value);
+    return values;
+  }
   Place placeOf(ElementId id) const;
   ElementId idOf(const IsoCell& cell, unsigned triangle) const;
   /// Above the numbers of all triangles.
@@ -90,6 +104,7 @@ class IsoCells {
   GridFrame frame_;
   IsoValue iso_;
   double inward_;
+  SampleBound bound_;
 };
 
 }  // namespace hl

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "surfaces/brick_index.h"
+#include "surfaces/crossed_cells.h"
 #include "surfaces/slope.h"
 
 namespace hl {
@@ -18,7 +19,7 @@ namespace hl {
 namespace {
 
 // Of the longest to the shortest height of a cell: then the flattest of its triangles is still one (kSliver).
-constexpr double kMostStretched = 50;
+constexpr double kMaxStretched = 50;
 
 using Place = IsoCells::Place;
 
@@ -51,13 +52,24 @@ double trilinearWeight(const Vec3& place, const Place& at, unsigned c) {
 
 }  // namespace
 
+void requireValues(const Volume& volume) {
+  const ValueRange& range = volume.pyramid.range();
+  if (range.low <= range.high) return;
+  std::ostringstream text;
+  text << "no voxel of it has a finite value";
+  if (const auto missing = volume.grid.samples().missing())
+    text << " but " << *missing << ", which stands for a missing one";
+  throw Error(text.str());
+}
+
 void requireSurface(const IsoSurface& surface) {
-  if (surface.triangles() > 0) return;
+  requireValues(*surface.volume());
+  if (surface.crossesAny()) return;
   const ValueRange& range = surface.volume()->pyramid.range();
-  if (!(range.low <= range.high)) throw Error("all its samples are missing");
   std::ostringstream text;
   text << "there is no surface at iso " << surface.iso().value << ": its values are from " << range.low << " to "
        << range.high;
+  if (range.holds(surface.iso().value)) text << ", and no two neighbours have it between them";
   throw Error(text.str());
 }
 
@@ -80,22 +92,50 @@ void IsoSurface::checkFrame() const {
     longest = std::max(longest, frame().axes.col(axis).norm());
     thinnest = std::min(thinnest, 1 / across_.row(axis).norm());
   }
-  if (!(longest <= kMostStretched * thinnest))
+  if (!(longest <= kMaxStretched * thinnest))
     throw Error("the cells of a volume are more than 50 times as long as thin: resample it");
   const Vec3 last = frame().point(volume()->grid.cells(0), volume()->grid.cells(1), volume()->grid.cells(2));
   if (!withinReach(frame().origin) || !withinReach(last)) throw Error("a volume reaches beyond 1e9 m");
 }
 
-// By the bricks in which it is.
+// By the bricks in which it is: rounding keeps the order of coordinates, so of the corners of a box the same one is
+// always the farthest along an axis.
 void IsoSurface::measure() {
-  constexpr std::uint64_t kPerBrick = 2 * BrickPyramid::kCells * BrickPyramid::kCells;
-  volume()->pyramid.forEachHolding(iso().value, [&](const Place& first, const Place& end) {
-    triangles_ += kPerBrick;
-    for (unsigned c = 0; c < kCellCorners; ++c) {
-      const auto at = [&](std::size_t axis) { return (c >> axis & 1U) != 0 ? end[axis] : first[axis]; };
-      bounds_.extend(frame().point(at(0), at(1), at(2)));
+  const auto reach_of = [&](Eigen::Index axis, double way) {
+    return volume()->pyramid.farthestHolding(iso().value, [&, axis, way](const Place& first, const Place& end) {
+      const auto at = [&](std::size_t i) {
+        return way * frame().axes(axis, static_cast<Eigen::Index>(i)) > 0 ? end[i] : first[i];
+      };
+      return way * frame().point(at(0), at(1), at(2))[axis];
+    });
+  };
+  Box box;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    box.max[axis] = reach_of(axis, 1);
+    box.min[axis] = -reach_of(axis, -1);
+  }
+  if (box.empty()) return;
+  constexpr std::uint64_t kPerBrick = std::uint64_t{2} * BrickPyramid::kCells * BrickPyramid::kCells;
+  bounds_ = box;
+  triangles_ = kPerBrick * std::max<std::uint64_t>(1, volume()->pyramid.countHolding(iso().value));
+}
+
+bool IsoSurface::crossesAny() const {
+  bool any = false;
+  const auto has_triangle = [&](const Place& at) {
+    const IsoCell cell = cells_.at(at);
+    for (unsigned n = 0; cell.triangles != nullptr && n < cell.triangles->count; ++n) {
+      if (exists(cell, n)) return true;
     }
+    return false;
+  };
+  volume()->pyramid.forEachHolding(iso().value, [&](const Place& first, const Place& end) {
+    if (any) return;
+    CrossedCells(volume()->grid, cells_.bound(), first, end).forEach([&](const Place& at) {
+      any = any || has_triangle(at);
+    });
   });
+  return any;
 }
 
 std::array<Vec3, 3> IsoSurface::corners(ElementId id) const {

@@ -48,6 +48,8 @@ class IsoSurface final : public PrimitiveSource {
   const IsoValue& iso() const { return cells_.iso(); }
   /// What its values feel like; null: nobody has said.
   const std::shared_ptr<const MatterTable>& matter() const { return matter_; }
+  /// Whether there is a triangle, which triangles() does not tell: the bricks that may have one are searched.
+  bool crossesAny() const;
 
  private:
   class Drawing;
@@ -67,7 +69,9 @@ class IsoSurface final : public PrimitiveSource {
   std::uint64_t triangles_ = 0;
 };
 
-/// Throws hl::Error, with the range of the values, if no sample and its neighbour have the iso value between them.
+/// Throws hl::Error if all samples are missing.
+void requireValues(const Volume& volume);
+/// The same, and with the range of the values if no sample and its neighbour have the iso value between them.
 void requireSurface(const IsoSurface& surface);
 
 }  // namespace hl

@@ -15,7 +15,7 @@
 
 namespace hl {
 
-inline constexpr unsigned kCellCorners = 8, kCellEdges = 12, kMostCellTriangles = 12;
+inline constexpr unsigned kCellCorners = 8, kCellEdges = 12, kMaxCellTriangles = 12;
 /// In place of an edge: the middle of the polygon that is a fan; a cell has one at most.
 inline constexpr unsigned kMiddle = kCellEdges;
 
@@ -30,7 +30,7 @@ constexpr unsigned endOfEdge(unsigned edge) { return beginOfEdge(edge) | 1U << e
 /// right-handed. Of a fan, the last corner of each triangle is kMiddle.
 struct CellTriangles {
   std::uint8_t count = 0;
-  std::array<std::array<std::uint8_t, 3>, kMostCellTriangles> edges{};
+  std::array<std::array<std::uint8_t, 3>, kMaxCellTriangles> edges{};
 };
 
 /// `value`: at the corners, relative to the iso value: inside is >= 0. RT-safe.

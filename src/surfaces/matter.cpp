@@ -11,7 +11,7 @@ namespace hl {
 
 namespace {
 
-constexpr double kMost = 1e9;  // as of a surface's quantities (base/quantities.def)
+constexpr double kMax = 1e9;  // as of a surface's quantities (base/quantities.def)
 
 void checkNumber(const char* name, double number, double most) {
   if (!(number >= 0 && number <= most))
@@ -21,9 +21,9 @@ void checkNumber(const char* name, double number, double most) {
 void checkRow(const MatterRow& row) {
   if (!std::isfinite(row.value)) throw Error("matter: each row needs a value, which is a finite number");
   if (row.stiffness) checkNumber("stiffness", *row.stiffness, 1);
-  if (row.strength_N) checkNumber("strength", *row.strength_N, kMost);
-  checkNumber("resistance", row.force.resistance_N, kMost);
-  checkNumber("drag", row.force.drag_Ns_m, kMost);
+  if (row.strength_N) checkNumber("strength", *row.strength_N, kMax);
+  checkNumber("resistance", row.force.resistance_N, kMax);
+  checkNumber("drag", row.force.drag_Ns_m, kMax);
 }
 
 std::optional<double> between(const std::optional<double>& low, const std::optional<double>& high, double part) {
@@ -40,7 +40,7 @@ void checkEverywhere(const std::vector<MatterRow>& rows, std::optional<double> M
 }  // namespace
 
 MatterTable::MatterTable(std::vector<MatterRow> rows) : rows_(std::move(rows)) {
-  if (rows_.size() > kMostRows) throw Error("matter: there are more than " + std::to_string(kMostRows) + " rows");
+  if (rows_.size() > kMaxRows) throw Error("matter: there are more than " + std::to_string(kMaxRows) + " rows");
   for (const MatterRow& row : rows_) checkRow(row);
   checkEverywhere(rows_, &MatterRow::stiffness, "stiffness");
   checkEverywhere(rows_, &MatterRow::strength_N, "strength");

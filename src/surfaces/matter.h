@@ -22,10 +22,10 @@ struct MatterRow {
 /// never pierced, the strength is that of the nearer row. Immutable.
 class MatterTable {
  public:
-  static constexpr std::size_t kMostRows = 256;
+  static constexpr std::size_t kMaxRows = 256;
 
   MatterTable() = default;
-  /// Throws hl::Error for more than kMostRows, for values that do not rise, for numbers beyond their ranges, and where
+  /// Throws hl::Error for more than kMaxRows, for values that do not rise, for numbers beyond their ranges, and where
   /// some rows say a number of a surface and others do not.
   explicit MatterTable(std::vector<MatterRow> rows);
 

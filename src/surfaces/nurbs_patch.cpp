@@ -30,7 +30,7 @@ void checkKnots(const std::vector<double>& knots, std::uint32_t order, const std
   if (!(span > 0)) throw Error(name + " have no span between the first and the last " + std::to_string(order));
   for (std::size_t i = first; i < last; ++i) {
     const double step = knots[i + 1] - knots[i];
-    if (step > 0 && step < span / kMostWeightRatio) throw Error(name + " are too close to each other");
+    if (step > 0 && step < span / kMaxWeightRatio) throw Error(name + " are too close to each other");
     if (i > first && i + order - 1 < last && knots[i] == knots[i + order - 1])
       throw Error(name + " tear the surface: a knot within it may be there order - 1 times");
   }
@@ -66,7 +66,7 @@ class CurveSplitter {
   Homogeneous point(std::size_t i, const std::vector<Homogeneous>& old) const {
     const std::size_t piece = std::min(i / degree_, spans_.size() - 1), at_end = i - piece * degree_;
     const std::size_t span = spans_[piece];
-    std::array<Homogeneous, kMostPatchOrder> p;
+    std::array<Homogeneous, kMaxPatchOrder> p;
     for (std::size_t r = 0; r <= degree_; ++r) p[r] = old[span - degree_ + r];
     for (std::size_t s = 1; s <= degree_; ++s) {
       const double x = knots_[s <= at_end ? span + 1 : span];
@@ -113,13 +113,13 @@ std::vector<double> bezierKnots(std::uint32_t order) {
 
 void checkPatch(const NurbsPatch& patch) {
   for (const std::uint32_t order : {patch.order_u, patch.order_v}) {
-    if (order < 2 || order > kMostPatchOrder) throw Error("orders must be 2 to 8: degree + 1");
+    if (order < 2 || order > kMaxPatchOrder) throw Error("orders must be 2 to 8: degree + 1");
   }
   checkKnots(patch.knots_u, patch.order_u, "knotsU");
   checkKnots(patch.knots_v, patch.order_v, "knotsV");
   const std::size_t columns = pointsAlong(patch.order_u, patch.knots_u);
   const std::size_t rows = pointsAlong(patch.order_v, patch.knots_v);
-  if (columns > kMostControlPoints || rows > kMostControlPoints) throw Error("a side has at most 4096 control points");
+  if (columns > kMaxControlPoints || rows > kMaxControlPoints) throw Error("a side has at most 4096 control points");
   if (patch.points.size() != columns * rows)
     throw Error("there must be " + std::to_string(columns) + " x " + std::to_string(rows) + " control points, not " +
                 std::to_string(patch.points.size()));
@@ -129,7 +129,7 @@ void checkPatch(const NurbsPatch& patch) {
       throw Error("points must be numbers up to 1e9");
     least = std::min(least, point.weight);
     most = std::max(most, point.weight);
-    if (!(point.weight > 0) || !(most <= kMostWeightRatio * least) || !(most <= kFarthestPoint_m))
+    if (!(point.weight > 0) || !(most <= kMaxWeightRatio * least) || !(most <= kFarthestPoint_m))
       throw Error("weights must be above 0, and the largest at most 1e6 times the smallest");
   }
 }

@@ -17,11 +17,11 @@ struct ControlPoint {
   bool operator==(const ControlPoint&) const = default;
 };
 
-inline constexpr std::uint32_t kMostPatchOrder = 8;
+inline constexpr std::uint32_t kMaxPatchOrder = 8;
 /// Along one side.
-inline constexpr std::uint32_t kMostControlPoints = 4096;
+inline constexpr std::uint32_t kMaxControlPoints = 4096;
 /// Weights and steps between knots may differ by this factor.
-inline constexpr double kMostWeightRatio = 1e6;
+inline constexpr double kMaxWeightRatio = 1e6;
 
 /// Points row by row, u the faster. Metres, object frame.
 struct NurbsPatch {

@@ -14,9 +14,8 @@ namespace hl {
 
 namespace {
 
-constexpr auto kMostCells =
-    static_cast<std::uint32_t>(kMostPatchTriangles);  // along a side: what needs more is refused
-constexpr double kLeastPatchError_m = 1e-12;
+constexpr auto kMaxCells = static_cast<std::uint32_t>(kMaxPatchTriangles);  // along a side: what needs more is refused
+constexpr double kMinPatchError_m = 1e-12;
 
 using SideKey = std::vector<double>;
 
@@ -81,7 +80,7 @@ class SideClasses {
 };
 
 std::uint32_t cellsOf(double wanted) {
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(kMostCells)));
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(kMaxCells)));
 }
 
 // How many cells along u and v keep a piece within `error_m`: in the ratio in which it is curved.
@@ -190,8 +189,8 @@ void checkPatches(const std::vector<NurbsPatch>& patches) {
       throw Error("patches[" + std::to_string(i) + "]: " + error.what());
     }
     pieces += mostPiecesOf(patches[i]);
-    if (pieces > kMostPatchPieces)
-      throw Error("the patches have more than " + std::to_string(kMostPatchPieces) + " Bezier pieces");
+    if (pieces > kMaxPatchPieces)
+      throw Error("the patches have more than " + std::to_string(kMaxPatchPieces) + " Bezier pieces");
   }
 }
 
@@ -201,7 +200,7 @@ PatchPlan planPatches(const std::vector<NurbsPatch>& patches, double error_m, st
   PatchPlan plan;
   checkPatches(patches);
   if (patches.empty()) return plan;
-  if (error_m == 0) error_m = std::max(kLeastPatchError_m, kPatchError * sizeOf(patches));
+  if (error_m == 0) error_m = std::max(kMinPatchError_m, kPatchError * sizeOf(patches));
   SideClasses classes;
   std::vector<PieceSides> sides;
   for (const NurbsPatch& patch : patches) {

@@ -19,9 +19,9 @@ struct PatchMesh {
 
 /// Of the largest side of all control points: what a mesh is exact to where nothing else is said.
 inline constexpr double kPatchError = 2e-5;
-inline constexpr std::uint64_t kMostPatchTriangles = 5'000'000;
+inline constexpr std::uint64_t kMaxPatchTriangles = 5'000'000;
 /// Bezier pieces of all patches together.
-inline constexpr std::uint64_t kMostPatchPieces = 20'000;
+inline constexpr std::uint64_t kMaxPatchPieces = 20'000;
 
 /// How each piece is divided.
 struct PatchPlan {
@@ -39,7 +39,7 @@ struct PatchPlan {
 /// `error_m` = 0: kPatchError of the size. Throws hl::Error for patches that make no surface, and if there were more
 /// than `most_triangles`. Takes memory for the pieces alone.
 PatchPlan planPatches(const std::vector<NurbsPatch>& patches, double error_m = 0,
-                      std::uint64_t most_triangles = kMostPatchTriangles);
+                      std::uint64_t most_triangles = kMaxPatchTriangles);
 
 PatchMesh meshPatches(const PatchPlan& plan);
 

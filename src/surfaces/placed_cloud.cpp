@@ -27,8 +27,8 @@ std::array<Vec3, 2> acrossOf(const Vec3& n) {
 
 PlacedCloud::PlacedCloud(std::shared_ptr<const CloudPoints> points, const GridFrame& frame, const CloudLook& look)
     : points_(std::move(points)), frame_(frame), look_(look) {
-  constexpr double kLeastReach = 0.01, kMostReach = 10;
-  if (!(look.reach >= kLeastReach && look.reach <= kMostReach))
+  constexpr double kMinReach = 0.01, kMaxReach = 10;
+  if (!(look.reach >= kMinReach && look.reach <= kMaxReach))
     throw Error("a surfel reaches from 0.01 to 10 times the spacing");
   linear_ = frame.axes * points_->lattice().step.cwiseInverse().asDiagonal();
   const Vec3 sizes = linear_.jacobiSvd().singularValues();

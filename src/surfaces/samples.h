@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 namespace hl {
 
@@ -27,26 +28,32 @@ class Samples {
   SampleKind kind() const { return kind_; }
   std::optional<double> missing() const { return missing_; }
   const void* data() const { return data_.get(); }
-  /// Not a number where it is missing. RT-safe.
-  double operator[](std::size_t place) const {
-    const double value = read(place);
-    return value == missing_value_ ? std::numeric_limits<double>::quiet_NaN() : value;
-  }
-
- private:
-  double read(std::size_t place) const {
+  /// Calls use(samples) with all of them as they are stored: a pointer to numbers of their kind. RT-safe.
+  template <typename Use>
+  auto as(const Use& use) const {
     switch (kind_) {
       case SampleKind::kInt16:
-        return static_cast<const std::int16_t*>(data_.get())[place];
+        return use(static_cast<const std::int16_t*>(data_.get()));
       case SampleKind::kUint16:
-        return static_cast<const std::uint16_t*>(data_.get())[place];
+        return use(static_cast<const std::uint16_t*>(data_.get()));
       case SampleKind::kFloat32:
         break;
     }
-    const double value = static_cast<const float*>(data_.get())[place];
-    return std::isinf(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+    return use(static_cast<const float*>(data_.get()));
+  }
+  /// Not a number where it is missing. RT-safe.
+  double operator[](std::size_t place) const {
+    return as([&](const auto* samples) { return number(samples[place]); });
+  }
+  /// Of a sample as it is stored. RT-safe.
+  template <typename Sample>
+  double number(Sample sample) const {
+    const double value = sample;
+    const bool missing = value == missing_value_ || (std::is_floating_point_v<Sample> && std::isinf(value));
+    return missing ? std::numeric_limits<double>::quiet_NaN() : value;
   }
 
+ private:
   SampleKind kind_;
   std::shared_ptr<const void> data_;
   std::optional<double> missing_;

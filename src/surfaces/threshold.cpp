@@ -8,13 +8,13 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kBins = 1024, kMostSamples = 4'000'000;
+constexpr std::size_t kBins = 1024, kMaxSamples = 4'000'000;
 
 using ValueCounts = std::array<double, kBins>;
 
 ValueCounts countsOf(const VoxelGrid& grid, double low, double high) {
   ValueCounts counts{};
-  const std::size_t every = std::max<std::size_t>(1, grid.count() / kMostSamples) | 1U;  // odd: no column by chance
+  const std::size_t every = std::max<std::size_t>(1, grid.count() / kMaxSamples) | 1U;  // odd: no column by chance
   const Samples& samples = grid.samples();
   for (std::size_t place = 0; place < grid.count(); place += every) {
     const double value = grid.values().offset + grid.values().scale * samples[place];

@@ -10,7 +10,7 @@ namespace hl {
 
 void checkVoxelSides(const std::array<std::uint32_t, 3>& side) {
   const auto [least, most] = std::minmax_element(side.begin(), side.end());
-  if (*least < 2 || *most > kMostVoxelSide) throw Error("a volume needs 2 to 2^20 samples along each axis");
+  if (*least < 2 || *most > kMaxVoxelSide) throw Error("a volume needs 2 to 2^20 samples along each axis");
 }
 
 VoxelGrid::VoxelGrid(const std::array<std::uint32_t, 3>& side, Samples samples, const ValueScale& values)

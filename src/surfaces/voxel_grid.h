@@ -10,9 +10,9 @@
 namespace hl {
 
 /// No side has more samples: numbers of cells stay below 2^60.
-inline constexpr std::uint32_t kMostVoxelSide = 1U << 20;
+inline constexpr std::uint32_t kMaxVoxelSide = 1U << 20;
 
-/// Samples along x, y and z, each 2 to kMostVoxelSide; else throws hl::Error.
+/// Samples along x, y and z, each 2 to kMaxVoxelSide; else throws hl::Error.
 void checkVoxelSides(const std::array<std::uint32_t, 3>& side);
 
 /// How values follow from samples: value = offset + scale * sample, as CT numbers (HU) do.
@@ -37,9 +37,14 @@ class VoxelGrid {
   double at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const { return at(placeOf(x, y, z)); }
   /// The values at the corners of a cell; corner c has the offsets (c & 1, c >> 1 & 1, c >> 2 & 1). RT-safe.
   std::array<double, 8> cornersOf(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-    const std::size_t first = placeOf(x, y, z), row = side_[0], slice = row * side_[1];
-    return {at(first),         at(first + 1),         at(first + row),         at(first + row + 1),
-            at(first + slice), at(first + slice + 1), at(first + slice + row), at(first + slice + row + 1)};
+    const std::size_t place = placeOf(x, y, z), row = side_[0], slice = row * side_[1];
+    return samples_.as([&](const auto* samples) -> std::array<double, 8> {
+      const auto* const first = samples + place;
+      const auto at = [&](std::size_t corner) {
+        return values_.offset + values_.scale * samples_.number(first[corner]);
+      };
+      return {at(0), at(1), at(row), at(row + 1), at(slice), at(slice + 1), at(slice + row), at(slice + row + 1)};
+    });
   }
 
  private:

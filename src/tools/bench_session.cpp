@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/clock.h"
+
 namespace hl {
 
 namespace {
@@ -25,7 +27,7 @@ BenchSession::BenchSession(const StabilityCase& loop, double stiffness_N_m, std:
       settings_(ServoSettings::of(device_.info())) {
   settings_.stiffness_N_m = stiffness_N_m;
   settings_.damping_Ns_m = loop.damping_Ns_m;
-  settings_.period_s = 1e-9 * static_cast<double>(period_ns_);
+  settings_.period_s = seconds(period_ns_);
   settings_.ramp_s = settings_.period_s;
   settings_.vibration.on = false;  // what the loop does by itself
   commands_.radius_W = kRadius_m;

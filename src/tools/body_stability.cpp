@@ -161,8 +161,8 @@ bool swingGrows(const BodyOnDevice& on, const Coupling& coupling, double stiffne
 }
 
 bool swingGrows(const BodyOnDevice& on, double stiffness_N_m) {
-  constexpr double kTime_s = 5, kMostWeight_N = 0.05, kGravity_m_s2 = 9.81, kLeast = 0.01;
-  const double weight_N = std::min(kMostWeight_N, kGravity_m_s2 * on.body_kg);
+  constexpr double kTime_s = 5, kMaxWeight_N = 0.05, kGravity_m_s2 = 9.81, kMin = 0.01;
+  const double weight_N = std::min(kMaxWeight_N, kGravity_m_s2 * on.body_kg);
   StabilityCase loop;
   loop.device.model = linearDevice(on.device_kg, on.damping_Ns_m);
   loop.device.held = false;
@@ -182,7 +182,7 @@ bool swingGrows(const BodyOnDevice& on, double stiffness_N_m) {
     if (!session.on() || (t > 0.2 * kTime_s && swing_N > 0.9 * weight_N)) return true;
     growth.add(t / kTime_s, swing_N);
   }
-  return growth.grows(kLeast);
+  return growth.grows(kMin);
 }
 
 double highestStiffnessOnBody_N_m(const BodyOnDevice& on, const Coupling& coupling) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/clock.h"
+
 namespace hl {
 
 namespace {
@@ -78,7 +80,7 @@ Vec3 SelfTest::step(const DeviceSample& sample) {
   if (part_ == SelfTestPart::kDone) return Vec3::Zero();
   settings_.effects.constant_N.setZero();
   if (sample.status == DeviceStatus::kOk) take(sample.position);
-  report_.age_max_s = std::max(report_.age_max_s, 1e-9 * static_cast<double>(sample.age_ns));
+  report_.age_max_s = std::max(report_.age_max_s, seconds(sample.age_ns));
   const ServoOutput out = stepServo(servo_, settings_, nothingToPullTo(sample), sample);
   report_.safety = out.safety;
   if (out.safety == SafetyState::kFault) end(out.fault);

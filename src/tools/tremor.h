@@ -14,7 +14,7 @@ namespace hl {
 
 inline constexpr int kTremorWaves = 8;  // on each axis: enough that no beat is heard out
 inline constexpr double kTremorLow_Hz = 8, kTremorHigh_Hz = 12;
-inline constexpr double kMostTremor_m = 1;
+inline constexpr double kMaxTremor_m = 1;
 
 /// Adds the tremor that `seed` draws to each row: `rms_m` is its root mean square on each axis, over long times. 0 m
 /// changes nothing. The same bits on every machine.

@@ -14,7 +14,7 @@
 namespace hl {
 
 /// What the fields of bodies take from them.
-using DrawnImpulses = FixedVector<BodyImpulse, kMostFieldsAtOnce>;
+using DrawnImpulses = FixedVector<BodyImpulse, kMaxFieldsAtOnce>;
 
 /// Of one scene, between two ticks. Its lists have the room that reserve() made.
 struct BodiesMemory {

@@ -53,9 +53,9 @@ class BodyEvents {
   void strike(Seen& seen, std::int64_t now_ns, const Vec3& given_m_s, double most_m_s, std::size_t i,
               const BodyWorld& bodies);
 
-  FixedVector<Seen, kMostBodies> seen_, before_;  // as World::bodies
-  std::uint64_t scene_ = 0;                       // identity
-  std::uint64_t returned_ = 0;                    // BodyView::returned before the step
+  FixedVector<Seen, kMaxBodies> seen_, before_;  // as World::bodies
+  std::uint64_t scene_ = 0;                      // identity
+  std::uint64_t returned_ = 0;                   // BodyView::returned before the step
   SpscRing<BodyEvent, 1024> events_;
 };
 

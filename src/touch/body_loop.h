@@ -14,7 +14,9 @@ namespace hl {
 /// pop() by one thread, the rest by one other; RT-safe.
 class BodyLoop {
  public:
-  /// Is done to the bodies in the next step(). What there is no room for is dropped.
+  /// Whether what clients do waits for the next step().
+  bool waiting() const { return !to_do_.empty(); }
+  /// Is done to the bodies in the next step(). What there is no room for is dropped: one call between two steps.
   void act(const BodyCommands& commands) {
     for (const BodyCommand& command : commands) to_do_.push(command);
   }

@@ -1,7 +1,9 @@
 #include "touch/body_world.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "bodies/scene_world.h"
 #include "bodies/sleep.h"
@@ -271,15 +273,15 @@ void BodyWorld::draw(std::size_t hand, const FieldForces& fields, double period_
 // The bodies and the hands that pull, or have something to pay. What was owed to a body is owed no more as far as it
 // was given.
 void BodyWorld::stepAmong(std::span<const HandAtBodies> hands, double period_s, const StepTimes& times) {
-  FixedVector<HandNode, kMostHands> nodes;
-  FixedVector<Account*, kMostHands> of_node;
+  FixedVector<HandNode, kMaxHands> nodes;
+  FixedVector<Account*, kMaxHands> of_node;
   for (std::size_t i = 0; i < hands.size(); ++i) {
     Account& account = accounts_[i];
     if (!(hands[i].spring_N_m > 0) && account.owed.empty()) continue;
     nodes.push(nodeOf(hands[i], account.owed));
     of_node.push(&account);
   }
-  std::array<GivenImpulses, kMostHands> given;
+  std::array<GivenImpulses, kMaxHands> given;
   report_ = stepper_.step(state_, period_s, {nodes.begin(), nodes.size()}, {given.data(), nodes.size()}, times);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Account& account = *of_node[i];
@@ -287,6 +289,14 @@ void BodyWorld::stepAmong(std::span<const HandAtBodies> hands, double period_s, 
     account.paid = account.owed.size();
     for (std::size_t k = 0; k < account.paid && k < account.given.size(); ++k)
       account.owed[k].impulse_N_s -= account.given[k].impulse_N_s;
+  }
+}
+
+// Here and not where the world is made: another loop may use the same poses then.
+void BodyWorld::showMobility() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Mass& mass = world().bodies[i].mass;
+    bodies_[i]->poses->setMobility({1 / mass.mass_kg, mass.inertia_kg_m2.inverse(), mass.centre_O});
   }
 }
 
@@ -299,6 +309,7 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, std::span<const HandA
     account.given.clear();
     account.paid = 0;
   }
+  if (!std::exchange(mobility_shown_, true)) showMobility();
   if (first || now_ns <= before_ns) return;
   push(period_s);
   payDrawn();
@@ -306,7 +317,7 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, std::span<const HandA
   for (const std::size_t i : stepper_.awake()) bodies_[i]->poses->moveTo(shownOf(i), before_ns, now_ns);
   returnLost();
   joint_views_.show(world(), state_, period_s);
-  count(1e-9 * static_cast<double>(now_ns - before_ns) - period_s);
+  count(seconds(now_ns - before_ns) - period_s);
 }
 
 // The sums over all bodies are for people who look: not in every step.

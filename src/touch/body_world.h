@@ -44,7 +44,7 @@ class BodyWorld {
   void continueFrom(const BodyWorld& before);
   /// What clients do to bodies, before the next step. Energy that it brings is booked as theirs. RT-safe.
   void act(const BodyCommands& commands);
-  /// Moves the bodies from the last step's moment to `now_ns`, by `period_s` of their time. `hands`: kMostHands at
+  /// Moves the bodies from the last step's moment to `now_ns`, by `period_s` of their time. `hands`: kMaxHands at
   /// most, each at its number. RT-safe.
   void step(std::int64_t now_ns, double period_s, std::span<const HandAtBodies> hands);
   /// After the tick of a hand: what each object's contact gives it. RT-safe.
@@ -83,6 +83,7 @@ class BodyWorld {
   void place(std::size_t i, const BodyCommand& command);
   void give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point);
   void push(double period_s);
+  void showMobility();
   void stepAmong(std::span<const HandAtBodies> hands, double period_s, const StepTimes& times);
   void payDrawn();
   void returnLost();
@@ -101,11 +102,12 @@ class BodyWorld {
     GivenImpulses given;   // in the last step
     std::size_t paid = 0;  // the first of them: what was owed
   };
-  std::array<Account, kMostHands> accounts_;  // by the hand's number
+  std::array<Account, kMaxHands> accounts_;  // by the hand's number
   BodyPushes pushes_;
   BodyStepReport report_;
   std::int64_t time_ns_ = 0;
   bool begun_ = false;
+  bool mobility_shown_ = false;
   BodyView view_;
   std::vector<BodyState> starts_;         // of the bodies
   std::vector<JointState> joint_starts_;  // as World::joints

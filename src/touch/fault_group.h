@@ -9,7 +9,7 @@ namespace hl {
 /// Shared by the sessions of a server whose faults are joined. Any thread; RT-safe.
 class FaultGroup {
  public:
-  static constexpr std::uint32_t kMaxDevices = 32;
+  static constexpr std::uint32_t kMaxDevices = 32;  ///< numbers are below
 
   /// Device `number` is in a fault of its own, or no longer.
   void set(std::uint32_t number, bool at_fault) {
@@ -28,7 +28,7 @@ class FaultGroup {
   std::uint64_t armRequests() const { return arm_requests_.load(std::memory_order_relaxed); }
 
  private:
-  static std::uint32_t bitOf(std::uint32_t number) { return std::uint32_t{1} << (number % kMaxDevices); }
+  static std::uint32_t bitOf(std::uint32_t number) { return std::uint32_t{1} << number; }
   bool isSet(std::uint32_t number) const { return (at_fault_.load(std::memory_order_relaxed) & bitOf(number)) != 0; }
 
   std::atomic<std::uint32_t> at_fault_{0};  // bit i: device i

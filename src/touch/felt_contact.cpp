@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "proxy/yielding.h"
+#include "proxy/contact_parts.h"
 
 namespace hl {
 
@@ -31,12 +31,10 @@ FeltContact placeOf(const SceneAt& scene, const ProxyContact& contact) {
 FeltContacts feltContacts(const SceneAt& scene, const ProxySettings& settings, const ProxyState& state,
                           const TickReport& report, const Vec3& finger) {
   FeltContacts felt;
-  const double spring_N_m = settings.spring_N_m / settings.world_per_device;
-  const Vec3 by_contacts_m = state.position + state.rest_offset_m - finger - report.held_pull_m;
-  const ContactParts parts = partsOf(report.contacts, by_contacts_m);
+  const ContactParts forces_N = contactForces_N(settings, state, report, finger);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     FeltContact contact = placeOf(scene, report.contacts[i]);
-    contact.force_N = spring_N_m * state.stiffness * parts[i];
+    contact.force_N = forces_N[i];
     felt.push(contact);
   }
   return felt;

@@ -8,6 +8,7 @@
 #include "base/fixed_vector.h"
 #include "base/vec.h"
 #include "proxy/proxy_state.h"
+#include "proxy/solver.h"
 #include "proxy/tick_report.h"
 #include "scene/scene_at.h"
 #include "touch/touch_events.h"
@@ -23,7 +24,7 @@ struct FeltContact {
   Vec3 point_W = Vec3::Zero();              ///< m
   Vec3 force_N = Vec3::Zero();              ///< on the hand
 };
-using FeltContacts = FixedVector<FeltContact, 3>;
+using FeltContacts = FixedVector<FeltContact, kMaxActive>;
 
 /// The contacts after a tick, with the forces of the spring. RT-safe.
 FeltContacts feltContacts(const SceneAt& scene, const ProxySettings& settings, const ProxyState& state,

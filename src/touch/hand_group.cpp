@@ -15,21 +15,18 @@ HandGroup::HandGroup(std::shared_ptr<const Snapshot> first, double rate_Hz)
 void HandGroup::join(const LoopParts& parts) { seats_.emplace_back(parts, rate_Hz_); }
 
 void HandGroup::start() {
-  running_ = true;
-  thread_ = startThread("hands", [this] { run(); });
+  thread_.start("hands", [this] { run(); });
 }
 
-void HandGroup::stop() {
-  if (running_.exchange(false)) thread_.join();
-}
+void HandGroup::stop() { thread_.stop(); }
 
 bool HandGroup::ready(std::int64_t since_ns) const {
-  return !running_ || (scenes_.taken() && last_ns_.load(std::memory_order_acquire) >= since_ns);
+  return !thread_.running() || (scenes_.taken() && last_ns_.load(std::memory_order_acquire) >= since_ns);
 }
 
 void HandGroup::run() {
   requestRealtime(kProxyPriority, spareCore(1));
-  runPeriodic(periodOf_ns(rate_Hz_), running_, counters_,
+  runPeriodic(periodOf_ns(rate_Hz_), thread_.running(), counters_,
               [&](std::int64_t) { guarded([this] { tick(monotonicNow_ns()); }); });
 }
 
@@ -43,7 +40,7 @@ void HandGroup::tell(ProxyLoop& hand) {
 // scene that is here. Without a hand nothing moves: so all steps are in the recordings of the hands.
 void HandGroup::tick(std::int64_t now_ns) {
   const Snapshot& scene = scenes_.take();
-  FixedVector<HandInStep, kMostHands> hands;
+  FixedVector<HandInStep, kMaxHands> hands;
   bool told = false;  // what clients do to bodies: by the first hand
   for (Seat& seat : seats_) {
     HandInStep hand;

@@ -9,9 +9,9 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <thread>
 #include <vector>
 
+#include "base/guarded_thread.h"
 #include "touch/hands_step.h"
 #include "touch/loop_parts.h"
 #include "touch/loop_totals.h"
@@ -27,7 +27,7 @@ class HandGroup {
   HandGroup(std::shared_ptr<const Snapshot> first, double rate_Hz);
   ~HandGroup() { stop(); }
 
-  /// The next hand, before start(). `parts` outlive the loop. Of more than kMostHands none is at the bodies; then no
+  /// The next hand, before start(). `parts` outlive the loop. Of more than kMaxHands none is at the bodies; then no
   /// scene may have any that move.
   void join(const LoopParts& parts);
   void start();
@@ -58,8 +58,7 @@ class HandGroup {
   BodyLoop body_loop_;
   std::atomic<std::int64_t> last_ns_{0};
   LoopCounters counters_;
-  std::atomic<bool> running_{false};
-  std::thread thread_;
+  LoopThread thread_;
 };
 
 }  // namespace hl

@@ -55,13 +55,10 @@ Vec3 HandMover::above(double top_D) const { return clampToWorkspace(Vec3(0, top_
 void HandMover::start(std::int64_t begin_ns) {
   if (!hasHand()) return;
   begin_ns_ = begin_ns;
-  running_ = true;
-  thread_ = startThread("supervisor", [this] { run(); });
+  thread_.start("hand", [this] { run(); });
 }
 
-void HandMover::stop() {
-  if (running_.exchange(false)) thread_.join();
-}
+void HandMover::stop() { thread_.stop(); }
 
 void HandMover::run() {
   LoopCounters counters;
@@ -72,7 +69,7 @@ void HandMover::run() {
     if (commands.turn) hand_->setHandTurn(*commands.turn);
     if (commands.gripper_rad) hand_->setHandGripper(*commands.gripper_rad);
   };
-  runPeriodic(kPeriod_ns, running_, counters, [&](std::int64_t now_ns) { guarded([&] { move(now_ns); }); });
+  runPeriodic(kPeriod_ns, thread_.running(), counters, [&](std::int64_t now_ns) { guarded([&] { move(now_ns); }); });
 }
 
 HandMover::Commands HandMover::takeCommands() {
@@ -110,7 +107,7 @@ void HandMover::follow(std::optional<std::uint32_t> buttons, std::int64_t now_ns
 
 void HandMover::turnAsScripted() const {
   if (!script_) return;
-  const double time_s = 1e-9 * static_cast<double>(monotonicNow_ns() - begin_ns_);
+  const double time_s = seconds(monotonicNow_ns() - begin_ns_);
   if (const auto turned = script_->turnedAt(time_s)) hand_->setHandTurn(*turned);
   if (const auto gripper_rad = script_->gripperAt(time_s)) hand_->setHandGripper(*gripper_rad);
 }
@@ -118,7 +115,7 @@ void HandMover::turnAsScripted() const {
 // With nothing to stroke the hand waits.
 std::optional<Vec3> HandMover::strokingGoal() const {
   const std::int64_t now_ns = monotonicNow_ns();
-  const double time_s = 1e-9 * static_cast<double>(now_ns - begin_ns_);
+  const double time_s = seconds(now_ns - begin_ns_);
   if (script_) return script_->at(time_s);
   const std::shared_ptr<const Snapshot> scene = scene_();
   if (scene->bounds.empty()) return {};
@@ -149,7 +146,7 @@ bool HandMover::moveAside(double top_D, double most_s) {
   aside_top_D_ = std::max(0.0, top_D);
   constexpr auto kLook = std::chrono::milliseconds(5);
   const std::int64_t end_ns = monotonicNow_ns() + static_cast<std::int64_t>(1e9 * most_s);
-  while (running_ && !aside_ && monotonicNow_ns() < end_ns) std::this_thread::sleep_for(kLook);
+  while (thread_.running() && !aside_ && monotonicNow_ns() < end_ns) std::this_thread::sleep_for(kLook);
   return aside_;
 }
 

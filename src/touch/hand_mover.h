@@ -7,8 +7,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 
+#include "base/guarded_thread.h"
 #include "device/device.h"
 #include "device/hand_script.h"
 #include "device/simulated_hand.h"
@@ -85,8 +85,7 @@ class HandMover {
   Commands commands_;
   std::atomic<double> aside_top_D_{kFree};  // m; kFree: it is where it is told
   std::atomic<bool> aside_{false};          // it has come there
-  std::atomic<bool> running_{false};
-  std::thread thread_;
+  LoopThread thread_;
 };
 
 }  // namespace hl

@@ -3,7 +3,7 @@
 namespace hl {
 
 void stepHands(const Snapshot& scene, BodyWorld* bodies, BodyLoop& body_loop, std::span<HandInStep> hands) {
-  FixedVector<HandAtBodies, kMostHands> at_bodies;
+  FixedVector<HandAtBodies, kMaxHands> at_bodies;
   const TickRequest* any = nullptr;
   for (const HandInStep& hand : hands) {
     if (hand.loop == nullptr) {

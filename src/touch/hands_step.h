@@ -17,7 +17,7 @@ struct HandInStep {
   ProxyStep out{};
 };
 
-/// All in one scene, at one time. `bodies`: its own; null: it has none. `hands`: kMostHands at most, each at its
+/// All in one scene, at one time. `bodies`: its own; null: it has none. `hands`: kMaxHands at most, each at its
 /// number. RT-safe.
 void stepHands(const Snapshot& scene, BodyWorld* bodies, BodyLoop& body_loop, std::span<HandInStep> hands);
 

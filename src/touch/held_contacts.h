@@ -11,10 +11,11 @@
 namespace hl {
 
 struct HeldContacts {
-  ServoTarget target;              ///< of the tick
-  FixedVector<Plane, 3> planes_D;  ///< above which the proxy's centre stays; none: it stays where the tick put it
-  FeltContacts contacts;           ///< of the tick
-  Vec3 held_N = Vec3::Zero();      ///< force of a snap or of matter on the hand in the tick
+  ServoTarget target;  ///< of the tick
+  FixedVector<Plane, kMaxActive>
+      planes_D;                ///< above which the proxy's centre stays; none: it stays where the tick put it
+  FeltContacts contacts;       ///< of the tick
+  Vec3 held_N = Vec3::Zero();  ///< force of a snap or of matter on the hand in the tick
 
   /// The target with the finger where it is now: the proxy is the point above all planes nearest to it. As the proxy
   /// before is above the same planes, the spring never gains by it. RT-safe.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "proxy/spring_energy.h"
 
@@ -26,7 +27,7 @@ void ProxyLoop::follow(const ProxyCommands& commands, const SpringOfServo& sprin
 void ProxyLoop::resume(const ProxyMemory& memory) {
   state_ = memory.state;
   blend_ = TargetBlend(memory.fading);
-  told_ = memory.told;
+  last_target_ = memory.last_target;
   restarts_ = memory.restarts;
 }
 
@@ -104,8 +105,7 @@ bool ProxyLoop::startsAnew() {
   }
   const bool skipped = snapshot.number > state_.snapshot + 1;  // others, with what they changed
   const std::int64_t blend_ns = skipped ? kAbruptBlend_ns : snapshot.blend_ns;
-  if (snapshot.number != state_.snapshot && blend_ns > 0)
-    blend_.add(changeOfPull(snapshot), 1e-9 * static_cast<double>(blend_ns));
+  if (snapshot.number != state_.snapshot && blend_ns > 0) blend_.add(changeOfPull(snapshot), seconds(blend_ns));
   return false;
 }
 
@@ -141,7 +141,7 @@ void ProxyLoop::tell(std::int64_t now_ns, const Vec3& finger_D, const SceneAt& s
   step.held.target.field_N = step.fields.force_N;
   step.held.target.field_drag_Ns_m = step.fields.damping_Ns_m;
   step.held.contacts = feltContacts(scene, settings_, state_, report, workspace_.toWorld(finger_D));
-  step.held.held_N = settings_.spring_N_m / settings_.world_per_device * state_.stiffness * report.held_pull_m;
+  step.held.held_N = settings_.springInWorld_N_m() * state_.stiffness * report.held_pull_m;
   events_.follow(now_ns, step.touched, state_.position);
 }
 
@@ -156,21 +156,21 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   const bool touching = touches(state_, report);
   const Vec3 pull_D = pullOf(state_, report, finger_D);
   const Vec3 fading_D = blend_.step(settings_.period_s);
-  ServoTarget target{finger_D, now_ns, touching, touching ? state_.stiffness : told_.stiffness,
+  ServoTarget target{finger_D, now_ns, touching, touching ? state_.stiffness : last_target_.stiffness,
                      report.injected_J + std::max(0.0, report.moved_J)};
   if (touching) target.proxy_D = workspace_.toDevice(state_.position + state_.rest_offset_m);
-  const double stiffness = told_.valid ? std::max(target.stiffness, told_.stiffness) : target.stiffness;
+  const double stiffness = last_target_.valid ? std::max(target.stiffness, last_target_.stiffness) : target.stiffness;
   if (blend_.active() && report.valid() && stiffness > 0) {
     target.valid = true;
     target.stiffness = stiffness;
     target.proxy_D = finger_D + (pull_D + fading_D) / stiffness;
-    target.paid_J = energyOf_J(target, finger_D) - (told_.valid ? energyOf_J(told_, finger_D) : 0);
+    target.paid_J = energyOf_J(target, finger_D) - (last_target_.valid ? energyOf_J(last_target_, finger_D) : 0);
   }
   last_.time_ns = now_ns;
   last_.finger_D = finger_D;
   last_.pull_D = pull_D;
   last_.used_up_at = report.used_up_at;
-  return told_ = target;
+  return last_target_ = target;
 }
 
 // Smooth surfaces let the proxy slide until the next tick; friction, a snap or matter would hold it, so there it stays.
@@ -180,7 +180,7 @@ HeldContacts ProxyLoop::heldBy(const TickReport& report, const ServoTarget& targ
   held.target = target;
   if (blend_.active() || report.held_pull_m != Vec3::Zero()) return held;
   for (const ProxyContact& contact : report.contacts) {
-    if (contact.rough) {
+    if (contact.holds_tangentially) {
       held.planes_D.clear();
       break;
     }

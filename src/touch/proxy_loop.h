@@ -47,7 +47,7 @@ struct ProxyStep {
   std::uint64_t scene = 0;  ///< identity of the snapshot; 0: there was no tick
   HeldContacts held;        ///< the target, and how it goes on until the next tick
   TickReport report;
-  FixedVector<ObjectName, 3> touched;  ///< of report.contacts, one by one
+  FixedVector<ObjectName, kMaxActive> touched;  ///< of report.contacts, one by one
   HoldingSnap snap;
   FieldForces fields;
 };
@@ -56,7 +56,7 @@ struct ProxyStep {
 struct ProxyMemory {
   ProxyState state;
   FadingPull fading;
-  ServoTarget told;            ///< in the last tick
+  ServoTarget last_target;     ///< of the last tick
   std::uint64_t restarts = 0;  ///< as in ProxyCommands
 };
 
@@ -80,6 +80,8 @@ class ProxyLoop {
     scenes_.take();
     return scenes_.hasBodies();
   }
+  /// Whether what was given to act() still waits for a step(). RT-safe.
+  bool waiting() const { return body_loop_.waiting(); }
   /// Is done to the bodies in the next step(). RT-safe.
   void act(const BodyCommands& commands) { body_loop_.act(commands); }
   const BodyCommands& takeCommands() { return body_loop_.takeCommands(); }
@@ -96,7 +98,7 @@ class ProxyLoop {
   const ProxyState& state() const { return state_; }
   /// Of the scene of the last step; null: it has none.
   const BodyWorld* bodies() const { return bodies_; }
-  ProxyMemory memory() const { return {state_, blend_.fading(), told_, restarts_}; }
+  ProxyMemory memory() const { return {state_, blend_.fading(), last_target_, restarts_}; }
   /// Of the bodies of that scene; nothing where it has none. False: there is no room for it. RT-safe.
   bool remember(BodiesMemory& out) const;
   /// Before the first step: goes on as the loop did that had this memory, if its scene is the one that step() takes.
@@ -147,7 +149,7 @@ class ProxyLoop {
   ManyRecentPrimitives recent_;
   LastTick last_;
   TargetBlend blend_;
-  ServoTarget told_;  // in the last tick
+  ServoTarget last_target_;  // in the last tick
   std::uint64_t restarts_ = 0;
   TouchEvents events_;
 };

@@ -8,17 +8,14 @@
 namespace hl {
 
 void ProxyThread::start() {
-  running_ = true;
-  thread_ = startThread("proxy", [this] { run(); });
+  thread_.start("proxy", [this] { run(); });
 }
 
-void ProxyThread::stop() {
-  if (running_.exchange(false)) thread_.join();
-}
+void ProxyThread::stop() { thread_.stop(); }
 
 void ProxyThread::run() {
   requestRealtime(kProxyPriority, spareCore(1));
-  runPeriodic(periodOf_ns(rate_Hz_), running_, counters_, [&](std::int64_t) {
+  runPeriodic(periodOf_ns(rate_Hz_), thread_.running(), counters_, [&](std::int64_t) {
     if (tick_.ticker().isTurnOf(Turn::kProxy)) guarded([this] { tick(); });
   });
 }

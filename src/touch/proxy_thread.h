@@ -2,9 +2,7 @@
 // ticks do not fit in a servo step (loop_chooser.h).
 #pragma once
 
-#include <atomic>
-#include <thread>
-
+#include "base/guarded_thread.h"
 #include "touch/loop_totals.h"
 #include "touch/tick_beside.h"
 
@@ -26,8 +24,7 @@ class ProxyThread {
   TickBeside tick_;
   const double rate_Hz_;
   LoopCounters counters_;
-  std::atomic<bool> running_{false};
-  std::thread thread_;
+  LoopThread thread_;
 };
 
 }  // namespace hl

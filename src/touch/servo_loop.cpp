@@ -10,9 +10,11 @@ namespace hl {
 
 namespace {
 
-ServoSettings servoSettingsOf(const TouchSettings& settings, const DeviceInfo& device, double rate_Hz) {
-  ServoSettings servo = ServoSettings::of(device);
+// A servo that is late cannot hurt a simulated hand: on a busy machine it goes on as well as it can.
+ServoSettings servoSettingsOf(const TouchSettings& settings, Device& device, double rate_Hz) {
+  ServoSettings servo = ServoSettings::of(device.info());
   servo.period_s = 1 / rate_Hz;
+  if (device.hand() != nullptr) servo.missed_limit = SafetySettings::kNoLimit;
   if (settings.damping_Ns_m) servo.damping_Ns_m = *settings.damping_Ns_m;
   settings.servo.apply(servo);
   return servo;
@@ -25,7 +27,7 @@ VibrationView viewOf(const VibrationGuard& guard) { return {guard.limit_N_m, gua
 ServoLoop::ServoLoop(const LoopParts& parts, const TouchSettings& settings, double rate_Hz)
     : parts_(parts),
       reader_(parts.device, parts.exchange),
-      settings_(servoSettingsOf(settings, parts.device.info(), rate_Hz)),
+      settings_(servoSettingsOf(settings, parts.device, rate_Hz)),
       effects_(settings_.effects),
       share_core_(settings.timer_reference),
       watch_(parts.device, counters_, [this] {
@@ -41,16 +43,14 @@ void ServoLoop::look() {
 
 void ServoLoop::start(std::int64_t begin_ns) {
   begin_ns_ = begin_ns;
-  running_ = true;
-  thread_ = startThread("servo", [this] { run(); });
+  thread_.start("servo", [this] { run(); });
   while (!ready_) std::this_thread::yield();
   watch_.start(ServoWatch::looks(grant_.fifo, 1 / settings_.period_s));
 }
 
 void ServoLoop::stop() {
-  if (!running_.exchange(false)) return;
   watch_.stop();
-  thread_.join();
+  thread_.stop();
 }
 
 void ServoLoop::run() {
@@ -59,7 +59,7 @@ void ServoLoop::run() {
   grant_ = requestRealtime(kServoPriority, core);
   ready_ = true;
   const auto end_force = [this] { parts_.device.write(Vec3::Zero()); };
-  runPeriodic(periodOf_ns(1 / settings_.period_s), running_, counters_, [&](std::int64_t) {
+  runPeriodic(periodOf_ns(1 / settings_.period_s), thread_.running(), counters_, [&](std::int64_t) {
     if (guarded([this] { step(); })) return;
     reader_.stepFailed();
     guarded(end_force);
@@ -80,7 +80,7 @@ void ServoLoop::step() {
   const ServoState before = step_.servo();
   apply(step_.servo(), command);
   const ServoOutput out = touch(sample);
-  tellFault();
+  shareFault();
   parts_.exchange.makes_force.store(makesForce(step_.servo()), std::memory_order_relaxed);
   // Found while this step stood still: its force is an old one.
   if (watch_.stalled()) parts_.device.write(Vec3::Zero());
@@ -106,7 +106,7 @@ bool ServoLoop::armsAgain() {
   return settings_.arm_again && state.safety == SafetyState::kFault && state.fault == FaultReason::kOtherDevice;
 }
 
-void ServoLoop::tellFault() {
+void ServoLoop::shareFault() {
   const ServoState& state = step_.servo();
   parts_.faults.set(state.safety == SafetyState::kFault && state.fault != FaultReason::kOtherDevice);
 }
@@ -139,7 +139,7 @@ void ServoLoop::tell(const ServoRecord& record, std::int64_t begin_ns) {
   const ServoOutput& out = record.out;
   const ServoTarget& target = record.target;
   const double penetration_m = target.valid ? (target.proxy_D - sample.position).norm() : 0;
-  parts_.views.samples.push({1e-9 * static_cast<double>(begin_ns - begin_ns_), static_cast<float>(out.force_N.norm()),
+  parts_.views.samples.push({seconds(begin_ns - begin_ns_), static_cast<float>(out.force_N.norm()),
                              static_cast<float>(penetration_m), last_tick_.work_us});
   parts_.views.moments.push({begin_ns, sample.position, out.force_N, sample.buttons, sample.status == DeviceStatus::kOk,
                              sample.stylus, sharing(last_tick_.held.contacts, last_tick_.held.held_N, out.force_N)});
@@ -151,7 +151,7 @@ void ServoLoop::tell(const ServoRecord& record, std::int64_t begin_ns) {
                             step_.servo().spring.ledger, viewOf(step_.servo().vibration), meter_.summary()});
 }
 
-void ServoLoop::tellStall(ServoView& view) const {
+void ServoLoop::markStall(ServoView& view) const {
   if (!watch_.stalled()) return;
   view.force_N = Vec3::Zero();
   view.safety = SafetyState::kFault;

@@ -5,8 +5,8 @@
 
 #include <atomic>
 #include <cstdint>
-#include <thread>
 
+#include "base/guarded_thread.h"
 #include "base/realtime.h"
 #include "touch/device_reader.h"
 #include "touch/loop_parts.h"
@@ -33,14 +33,14 @@ class ServoLoop {
   /// It stands still, or has and has not noticed yet.
   bool stalled() const { return watch_.stalled(); }
   /// For a loop that stands still, which cannot report it itself.
-  void tellStall(ServoView& view) const;
+  void markStall(ServoView& view) const;
 
  private:
   void run();
   void step();
   ServoCommand commandFor(const DeviceSample& sample);
   bool armsAgain();
-  void tellFault();
+  void shareFault();
   ServoOutput touch(const DeviceSample& sample);
   ServoOutput tickAndTouch(const DeviceSample& sample);
   void tell(const ServoRecord& record, std::int64_t begin_ns);
@@ -58,8 +58,8 @@ class ServoLoop {
   LoopCounters counters_;
   ServoWatch watch_;
   RealtimeGrant grant_;
-  std::atomic<bool> running_{false}, ready_{false};
-  std::thread thread_;
+  std::atomic<bool> ready_{false};
+  LoopThread thread_;
 };
 
 }  // namespace hl

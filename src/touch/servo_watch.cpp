@@ -23,19 +23,15 @@ std::uint32_t ServoWatch::looks(bool real_time, double servo_rate_Hz) {
 }
 
 void ServoWatch::start(std::uint32_t looks) {
-  running_ = true;
-  thread_ = startThread("servo watch", [this, looks] { run(looks); });
+  thread_.start("servo watch", [this, looks] { run(looks); });
 }
 
-void ServoWatch::stop() {
-  running_ = false;
-  if (thread_.joinable()) thread_.join();
-}
+void ServoWatch::stop() { thread_.stop(); }
 
 void ServoWatch::run(std::uint32_t looks) {
   requestRealtime(kPriority);
   Watchdog watchdog(looks);
-  runPeriodic(kLook_ns, running_, counters_, [&](std::int64_t) {
+  runPeriodic(kLook_ns, thread_.running(), counters_, [&](std::int64_t) {
     if (!watchdog.look(servo_.steps.load(std::memory_order_relaxed))) return;
     stalled_.store(true, std::memory_order_release);
     device_.stop();

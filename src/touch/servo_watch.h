@@ -6,8 +6,8 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <thread>
 
+#include "base/guarded_thread.h"
 #include "base/periodic.h"
 #include "device/device.h"
 
@@ -42,8 +42,8 @@ class ServoWatch {
   const LoopCounters& servo_;
   const std::function<void()> on_stall_;
   LoopCounters counters_;
-  std::atomic<bool> running_{false}, stalled_{false};
-  std::thread thread_;
+  std::atomic<bool> stalled_{false};
+  LoopThread thread_;
 };
 
 }  // namespace hl

@@ -26,8 +26,11 @@ bool Ticker::isTurnOf(Turn who) {
 const ProxyCommands& Ticker::follow() {
   const std::uint64_t arrivals = exchange_.arrivals.load(std::memory_order_acquire);
   live_.proxyCommands(commands_);
-  live_.takeBodyCommands(on_bodies_);
-  loop_.act(on_bodies_);
+  // While the device does not answer there are no steps: what clients do waits in their queue, which refuses more.
+  if (!loop_.waiting()) {
+    live_.takeBodyCommands(on_bodies_);
+    loop_.act(on_bodies_);
+  }
   commands_.restarts += arrivals;
   return commands_;
 }

@@ -2,9 +2,7 @@
 // machine's own hiccups do to a loop.
 #pragma once
 
-#include <atomic>
-#include <thread>
-
+#include "base/guarded_thread.h"
 #include "touch/loop_totals.h"
 
 namespace hl {
@@ -20,8 +18,7 @@ class TimerReference {
 
  private:
   LoopCounters counters_;
-  std::atomic<bool> running_{false};
-  std::thread thread_;
+  LoopThread thread_;
 };
 
 }  // namespace hl

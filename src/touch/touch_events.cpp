@@ -20,7 +20,8 @@ void TouchEvents::come(std::int64_t now_ns, const ObjectName& object, const Vec3
   events_.push({now_ns, object, true, position_W});
 }
 
-void TouchEvents::follow(std::int64_t now_ns, const FixedVector<ObjectName, 3>& touched, const Vec3& position_W) {
+void TouchEvents::follow(std::int64_t now_ns, const FixedVector<ObjectName, kMaxActive>& touched,
+                         const Vec3& position_W) {
   for (const ObjectName& object : touched) {
     const auto is_it = [&](const Felt& felt) { return felt.object.key == object.key; };
     auto* known = std::find_if(felt_.begin(), felt_.end(), is_it);

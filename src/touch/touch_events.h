@@ -8,6 +8,7 @@
 #include "base/fixed_vector.h"
 #include "base/spsc_ring.h"
 #include "base/vec.h"
+#include "proxy/solver.h"
 
 namespace hl {
 
@@ -38,7 +39,7 @@ inline constexpr std::int64_t kLetGo_ns = 20'000'000;
 class TouchEvents {
  public:
   /// What is touched now, by a proxy at `position_W`.
-  void follow(std::int64_t now_ns, const FixedVector<ObjectName, 3>& touched, const Vec3& position_W);
+  void follow(std::int64_t now_ns, const FixedVector<ObjectName, kMaxActive>& touched, const Vec3& position_W);
   bool pop(TouchEvent& event) { return events_.pop(event); }
 
  private:

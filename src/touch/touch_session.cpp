@@ -117,13 +117,13 @@ bool TouchSession::ready(std::int64_t since_ns) const {
 void TouchSession::viewsForClients(ServoView& servo, ProxyView& proxy) {
   views_.servo.clients.read(servo);
   views_.proxy.clients.read(proxy);
-  servo_.tellStall(servo);
+  servo_.markStall(servo);
 }
 
 void TouchSession::views(ServoView& servo, ProxyView& proxy) {
   views_.servo.pages.read(servo);
   views_.proxy.pages.read(proxy);
-  servo_.tellStall(servo);
+  servo_.markStall(servo);
 }
 
 // A hand of a group is ticked by one of two threads, and its own may stand still meanwhile: both are looked at.

@@ -1,9 +1,13 @@
 // TouchSession: a scene, a device and the loops between them.
 //
-//   ServoLoop   (fixed rate): device.read -> tick -> stepServo -> device.write   the path from encoder to motor
-//   ProxyThread (fixed rate): finger -> tick -> contacts    only while ticks do not fit in a servo step
-//   (loop_chooser.h) HandMover   (60 Hz):      commands and exploration -> the goal of a simulated hand
-// LiveSettings are what users change meanwhile, TouchViews what they are shown.
+//   ServoLoop       at the servo's rate   device.read -> tick -> stepServo -> device.write: from encoder to motor
+//   ProxyThread     at the proxy's rate   finger -> tick -> contacts, while ticks do not fit in a servo step
+//                                         (loop_chooser.h)
+//   HandMover       60 Hz                 commands and exploration -> the goal of a simulated hand
+//   TimerReference  at the servo's rate   nothing but the wait: how punctual this machine is without the servo's work
+//
+// While several hands are in a world of bodies, HandGroup ticks for all of them instead (hand_group.h). LiveSettings
+// are what users change meanwhile, TouchViews what they are shown.
 #pragma once
 
 #include <atomic>
@@ -82,7 +86,7 @@ class TouchSession {
   /// The last steps, newer ones in the place of older ones. Any thread.
   const LogRing<ServoMoment>& moments() const { return views_.moments; }
   double time_s() const { return time_s(monotonicNow_ns()); }  ///< since the start
-  double time_s(std::int64_t monotonic_ns) const { return 1e-9 * static_cast<double>(monotonic_ns - begin_ns_); }
+  double time_s(std::int64_t monotonic_ns) const { return seconds(monotonic_ns - begin_ns_); }
 
   /// Shows another scene. Not real-time; one thread at a time, and only when ready().
   void publish(std::shared_ptr<const Snapshot> snapshot) { publish(prepare(std::move(snapshot))); }

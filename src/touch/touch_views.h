@@ -23,8 +23,8 @@ namespace hl {
 /// What the last tick did.
 struct ProxyView {
   Vec3 proxy = Vec3::Zero();
-  FixedVector<ProxyContact, 3> contacts;
-  FixedVector<ObjectName, 3> touched;  ///< of the contacts, one by one
+  FixedVector<ProxyContact, kMaxActive> contacts;
+  FixedVector<ObjectName, kMaxActive> touched;  ///< of the contacts, one by one
   HoldingSnap snap;
   bool slipping = false;
   Ledger ledger;

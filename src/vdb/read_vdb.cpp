@@ -56,12 +56,12 @@ CoordBBox boxOf(const FloatGrid& grid) {
 
 // All of the box is kept. A voxel far from the others, as a broken file has it, must not take gigabytes.
 void checkFilling(const FloatGrid& grid, const std::array<std::uint32_t, 3>& side) {
-  constexpr std::uint64_t kSmall = std::uint64_t{1} << 26, kMostForEach = 2000;
+  constexpr std::uint64_t kSmall = std::uint64_t{1} << 26, kMaxForEach = 2000;
   // A level set has single voxels alone; fog has whole blocks of one value, too.
   const bool single = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
   const std::uint64_t active = single ? grid.tree().activeLeafVoxelCount() : grid.activeVoxelCount();
   const std::uint64_t all = samplesIn(side);
-  if (all <= kSmall || all / kMostForEach <= active) return;
+  if (all <= kSmall || all / kMaxForEach <= active) return;
   throw Error(fmt::format(
       "has {} active voxels in a box of {} x {} x {}, which would take {:.1f} GB: some lie far from the others; remove "
       "these, or resample the grid '{}' to larger voxels",

@@ -19,11 +19,11 @@ namespace {
 using openvdb::FloatGrid;
 
 std::string listed(const std::vector<GridInFile>& grids) {
-  constexpr std::size_t kMostListed = 8;
+  constexpr std::size_t kMaxListed = 8;
   std::string text;
-  for (std::size_t i = 0; i < std::min(grids.size(), kMostListed); ++i)
+  for (std::size_t i = 0; i < std::min(grids.size(), kMaxListed); ++i)
     text += fmt::format("{}'{}' of {}", i == 0 ? "" : ", ", shown(grids[i].name), shown(grids[i].type));
-  return text + (grids.size() > kMostListed ? ", ..." : "");
+  return text + (grids.size() > kMaxListed ? ", ..." : "");
 }
 
 FloatGrid::Ptr floatsOf(const openvdb::GridBase::Ptr& grid) {
@@ -34,7 +34,8 @@ FloatGrid::Ptr floatsOf(const openvdb::GridBase::Ptr& grid) {
 
 FloatGrid::Ptr readOpenVdb(std::istream& in, const std::string& name) {
   openvdb::initialize();
-  openvdb::io::Stream file(in, false);  // all at once: nothing is read later, from a copy of the file
+  in.exceptions(std::ios::failbit | std::ios::badbit);  // OpenVDB does not look whether the file has ended
+  openvdb::io::Stream file(in, false);                  // all at once: nothing is read later, from a copy of the file
   const openvdb::GridPtrVecPtr all = file.getGrids();
   std::vector<GridInFile> grids;
   for (const openvdb::GridBase::Ptr& grid : *all)

@@ -16,6 +16,7 @@
 #include "temp_folder.h"
 #include "wait_for.h"
 
+namespace hl::test_browser {
 namespace {
 
 using hl::test::tempFile;
@@ -96,3 +97,4 @@ TEST(Browser, InheritsNothingAndLeavesNoZombie) {
 }
 
 }  // namespace
+}  // namespace hl::test_browser

@@ -13,6 +13,7 @@
 
 #include "temp_folder.h"
 
+namespace hl::test_command {
 namespace {
 
 struct Result {
@@ -42,10 +43,13 @@ std::string constantVolume() {
 TEST(Command, AVolumeWithoutASurfaceSaysWhatItsValuesAre) {
   const Result info = call("info " + constantVolume());
   EXPECT_NE(info.output.find("all values of the volume are 0: it has no surface"), std::string::npos) << info.output;
+  EXPECT_NE(info.output.find("surface at 0, matter above; 0 triangles"), std::string::npos) << info.output;
   const Result other = call("info ct:phantom:41 --iso 50000");
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.output.find("there is no surface at iso 50000: its values are from -1000 to "), std::string::npos)
       << other.output;
+  EXPECT_EQ(call("info ct:phantom:41 --iso -1000").code, 2) << "nothing is below its least value";
+  EXPECT_EQ(call("info ct:phantom:41 --iso -1000 --below").code, 0);
 }
 
 TEST(Command, AWordThatIsNoneOfAnOptionIsToldWithThoseThatAre) {
@@ -61,6 +65,7 @@ TEST(Command, AWordThatIsNoneOfAnOptionIsToldWithThoseThatAre) {
         {"--fitt 2", "there is no option '--fitt' here (try --help)"},
         {"walker", "'walker' is too much here (try --help)"},
         {"--iso x", "--iso: 'x' is not a number (try --help)"},
+        {"--iso 300,nan", "--iso: 'nan' is not a number (try --help)"},
         {"--kp", "--kp needs a value (try --help)"}}) {
     const Result result = call(trace + option);
     EXPECT_EQ(result.code, 2) << option;
@@ -150,6 +155,7 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
         std::string("doctor --self-test"),
         std::string("doctor sim --report /nonexistent/report.json"),
         std::string("info /nonexistent.obj"),
+        std::string("info '/nonexistent\x1b[31m\n.obj'"),
         "trace teapot --path " + bad + " --out " + out,
         "trace teapot --path /nonexistent.csv --out " + out,
         "trace teapot --path " + path + " --out /nonexistent/o.csv",
@@ -167,6 +173,12 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
         std::string("touch --hand weak"),
         std::string("touch --tool-mass 100"),
         std::string("touch --black-box /proc/none"),
+        std::string("touch --black-box ''"),
+        std::string("info ''"),
+        std::string("touch --deflection 1e-5 --upload off"),
+        std::string("touch --iso 1"),
+        "trace teapot --deflection 1e-5 --path " + path + " --out " + out,
+        std::string("info teapot --deflection 1e-5"),
         std::string("touch --page-dir /nonexistent"),
         std::string("touch --device theremin"),
         std::string("touch --device sim:abacus"),
@@ -371,6 +383,21 @@ TEST(Command, ARecordedSessionIsReproducedAndTabled) {
   EXPECT_NE(again.output.find("replay of simulated"), std::string::npos) << again.output;
 }
 
+TEST(Command, ARecordingThatIsCutIsReproducedOnlyWhereItHasSteps) {
+  const std::string file = hl::test::tempFile("hl_cmd_cut.hlr");
+  ASSERT_EQ(call("record plane:200 --no-open --port 0 --black-box off --duration 1 --out " + file).code, 0);
+  std::set<int> codes;
+  for (auto bytes = std::filesystem::file_size(file); bytes > 0; bytes = bytes * 3 / 4) {
+    std::filesystem::resize_file(file, bytes);
+    const Result replayed = call("replay " + file);
+    const bool reproduced = lineWith(replayed.output, "reproduced") == "reproduced: bit for bit" &&
+                            lineWith(replayed.output, " 0 servo steps, 0 ticks").empty();
+    EXPECT_EQ(replayed.code, reproduced ? 0 : 2) << bytes << "\n" << replayed.output;
+    codes.insert(replayed.code);
+  }
+  EXPECT_EQ(codes, (std::set<int>{0, 2}));
+}
+
 TEST(Command, OfSeveralDevicesEachHasItsOwnRecording) {
   const std::string file = hl::test::tempFile("hl_cmd_hands.hlr");
   const std::string left = hl::test::tempFile("hl_cmd_hands-left.hlr");
@@ -471,3 +498,4 @@ TEST(Command, AFaultTellsWhereItsBlackBoxIs) {
 }
 
 }  // namespace
+}  // namespace hl::test_command

@@ -17,7 +17,7 @@
 #include "touch/touch_session.h"
 #include "wait_for.h"
 
-namespace hl::test {
+namespace hl::test::test_driver_sessions {
 namespace {
 
 // A busy machine may lose a device for a moment, which is a fault: then a person arms again.
@@ -188,4 +188,4 @@ INSTANTIATE_TEST_SUITE_P(Drivers, TouchCommand,
                          [](const auto& of) { return of.param.kind; });
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_driver_sessions

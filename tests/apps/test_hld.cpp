@@ -15,6 +15,7 @@
 #include "plain_client.h"
 #include "temp_folder.h"
 
+namespace hl::test_hld {
 namespace {
 
 using hl::test::fileWith;
@@ -218,6 +219,18 @@ TEST(Hld, BadInputIsOneLineAndExitCodeTwo) {
                                                        {"--device", "theremin"},
                                                        {"--explore", "maybe"},
                                                        {"--limit-pages", "0"},
+                                                       {"--limit-pages", "4294967296"},
+                                                       {"--limit-workers", "257"},
+                                                       {"--limit-message-bytes", "16383"},
+                                                       {"--limit-memory-bytes", "99999999999999999999999"},
+                                                       {"--iso", "1"},
+                                                       {"--grid", "x"},
+                                                       {"--below"},
+                                                       {"--surfels"},
+                                                       {"--vertical-scale", "2"},
+                                                       {"--deflection", "1e-5"},
+                                                       {"--scene", "teapot", "--deflection", "1e-5"},
+                                                       {"--black-box", ""},
                                                        {"--tls-key", "/nonexistent"},
                                                        {"--log-level", "loud"},
                                                        {"--limit-message-bytes", "-1"},
@@ -280,3 +293,4 @@ TEST(Hld, LogsWhichDeviceIsWhich) {
 }
 
 }  // namespace
+}  // namespace hl::test_hld

@@ -13,7 +13,7 @@
 #include "io/load_sent.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_sent {
 namespace {
 
 using test::fileWith;
@@ -106,4 +106,4 @@ TEST(SentScene, ErrorsNameTheFileAsItsUserDoes) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_sent

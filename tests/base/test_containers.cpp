@@ -10,7 +10,7 @@
 #include "base/function_ref.h"
 #include "base/histogram.h"
 
-namespace hl {
+namespace hl::test_containers {
 namespace {
 
 TEST(Histogram, PercentilesAreAtMostOneThirtySecondTooHigh) {
@@ -75,4 +75,4 @@ TEST(FunctionRef, CallsWhatItRefersToWithItsState) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_containers

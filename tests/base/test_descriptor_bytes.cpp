@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace hl {
+namespace hl::test_descriptor_bytes {
 namespace {
 
 TEST(DescriptorBytes, GoThroughAPipeWhole) {
@@ -36,4 +36,4 @@ TEST(DescriptorBytes, FailWithoutADescriptor) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_descriptor_bytes

@@ -6,7 +6,7 @@
 
 #include "base/values.h"
 
-namespace hl {
+namespace hl::test_fields {
 namespace {
 
 enum class Kind : std::uint8_t { kOne, kTwo, kThree };
@@ -82,4 +82,4 @@ TEST(Values, OfAnotherFormAreTold) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_fields

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <pthread.h>
+#include <sys/resource.h>
 
 #include <array>
 #include <atomic>
@@ -10,11 +11,13 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include "base/failing_allocation.h"
 
-namespace hl {
+namespace hl::test_guarded_thread {
 namespace {
 
 ThreadFailures failuresOf(const std::string& thread) {
@@ -83,6 +86,46 @@ TEST(GuardedThread, TriesUntilItSucceedsOrIsNoLongerWanted) {
   EXPECT_EQ(tries, 5);
 }
 
+TEST(LoopThread, RunsUntilItIsStoppedAndMayBeStoppedTwice) {
+  std::atomic<int> turns{0};
+  LoopThread loop;
+  EXPECT_FALSE(loop.stop());
+  loop.start("test loop", [&] {
+    while (loop.running()) ++turns;
+  });
+  while (turns == 0) std::this_thread::yield();
+  EXPECT_TRUE(loop.stop());
+  EXPECT_FALSE(loop.stop());
+  EXPECT_FALSE(loop.running());
+}
+
+#ifndef HL_SANITIZED  // sanitizers reserve terabytes of addresses: there the limit is not set
+// Without addresses for a stack there is no thread. Stacks of threads that have ended are used again first.
+TEST(LoopThread, WhatCannotStartDoesNotRunAndNeedNotBeJoined) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  std::array<LoopThread, 32> loops;
+  rlimit none = before;
+  none.rlim_cur = 1 << 20;
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &none), 0);
+  LoopThread* failed = nullptr;
+  for (LoopThread& loop : loops) {
+    try {
+      loop.start("test loop", [&loop] {
+        while (loop.running()) std::this_thread::yield();
+      });
+    } catch (const std::system_error&) {
+      failed = &loop;
+      break;
+    }
+  }
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  ASSERT_NE(failed, nullptr);
+  EXPECT_FALSE(failed->running());
+  EXPECT_FALSE(failed->stop());
+}
+#endif
+
 // The test's own tool: the nth allocation of one thread fails, no other of it, and none of another thread.
 TEST(FailingAllocation, FailsOnceInItsThread) {
   FailingAllocation::arm("test failing", 2);
@@ -107,4 +150,4 @@ TEST(FailingAllocation, FailsOnceInItsThread) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_guarded_thread

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace hl {
+namespace hl::test_huge_pages {
 namespace {
 
 constexpr std::size_t kLarge = 3 * HugePages::kPage / sizeof(std::uint32_t) + 5;
@@ -60,4 +60,4 @@ TEST(HugeVector, MemoryThatIsNotThereIsBadAlloc) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_huge_pages

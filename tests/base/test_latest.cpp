@@ -8,7 +8,7 @@
 
 #include "base/vec.h"
 
-namespace hl {
+namespace hl::test_latest {
 namespace {
 
 // Large enough that a torn copy would show.
@@ -70,4 +70,4 @@ TEST(Latest, TwoThreadsNeverSeeATornOrAnOlderValue) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_latest

@@ -8,7 +8,7 @@
 
 #include "base/realtime_guard.h"
 
-namespace hl {
+namespace hl::test_log_ring {
 namespace {
 
 /// All numbers are the same in a value that is whole.
@@ -68,4 +68,4 @@ TEST(LogRing, WhatIsReadWhileItIsWrittenIsWholeAndItsOwn) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_log_ring

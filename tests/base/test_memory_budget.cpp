@@ -16,7 +16,7 @@
 #include "base/error.h"
 #include "base/machine_memory.h"
 
-namespace hl {
+namespace hl::test_memory_budget {
 namespace {
 
 TEST(MemoryBudget, WhatDoesNotFitIsRefusedAndTakesNothing) {
@@ -162,4 +162,4 @@ TEST(MachineMemory, IsNoMoreThanTheProgramMayTake) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_memory_budget

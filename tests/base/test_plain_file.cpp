@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "temp_folder.h"
 
-namespace hl::test {
+namespace hl::test::test_plain_file {
 
 namespace {
 
@@ -31,6 +31,13 @@ TEST(PlainFile, IsReadWhereItIsOne) {
   EXPECT_EQ(faultOf(tempFile("link")), "");
 }
 
+TEST(PlainFile, GivesItsBytes) {
+  const std::string bytes("a\0\r\n\xff", 5);
+  EXPECT_EQ(contentOf(fileWith("bytes", bytes)), bytes);
+  EXPECT_EQ(contentOf(fileWith("nothing", "")), "");
+  EXPECT_EQ(contentOf(tempFile("nowhere")), std::nullopt);
+}
+
 TEST(PlainFile, IsNothingElse) {
   EXPECT_EQ(faultOf(tempFile("nowhere")), ": there is no such file");
   EXPECT_EQ(faultOf(""), ": there is no such file");
@@ -46,4 +53,4 @@ TEST(PlainFile, IsNothingElse) {
 
 }  // namespace
 
-}  // namespace hl::test
+}  // namespace hl::test::test_plain_file

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace hl {
+namespace hl::test_plain_math {
 namespace {
 
 // How far `found` is from the exact value, in units of its last place; near zero, of the last place of `least`.
@@ -77,4 +77,4 @@ TEST(PlainMath, TheCubeRootIsWithinTwoUnits) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_plain_math

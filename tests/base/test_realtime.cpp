@@ -19,7 +19,7 @@
 #include "base/clock.h"
 #include "base/periodic.h"
 
-namespace hl {
+namespace hl::test_realtime {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 2'000'000;
@@ -188,4 +188,4 @@ TEST(RequestRealtime, SaysWhyWhatWasRefused) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_realtime

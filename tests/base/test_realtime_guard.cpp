@@ -20,7 +20,7 @@
 #include "base/clock.h"
 #include "base/system_call_trap.h"
 
-namespace hl {
+namespace hl::test_realtime_guard {
 namespace {
 
 // Kept from the optimiser, which may drop an allocation that nobody sees.
@@ -205,4 +205,4 @@ TEST_F(SystemCallTrapDeathTest, LetsTheClockAndWhatIsAllowedPass) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_realtime_guard

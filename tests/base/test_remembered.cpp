@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace hl {
+namespace hl::test_remembered {
 namespace {
 
 TEST(Remembered, ForgetsWhatWasAskedForLongestAgo) {
@@ -31,4 +31,4 @@ TEST(Remembered, DoesNotKeepWhatIsLargerThanAll) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_remembered

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace hl {
+namespace hl::test_shared_numbers {
 namespace {
 
 TEST(SharedNumbers, AreZeroAtFirstAndThenWhatWasWritten) {
@@ -39,4 +39,4 @@ TEST(SharedNumbers, AreAllOfOneMoment) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_shared_numbers

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hl {
+namespace hl::test_url {
 namespace {
 
 TEST(Url, IsTakenApart) {
@@ -55,4 +55,4 @@ TEST(Url, QueriesAreTakenApart) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_url

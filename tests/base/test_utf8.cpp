@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hl {
+namespace hl::test_utf8 {
 namespace {
 
 std::string encoded(std::uint32_t code) {
@@ -36,6 +36,13 @@ TEST(Utf8, CodePointsAreGivenBack) {
   EXPECT_EQ(utf8Of(codePointsOf("a\xED\xA0\x80z\xE2\x89")), "a???z??");
 }
 
+TEST(Utf8, ABeginningHasNoPartOfACharacter) {
+  const std::string text = "a\xe2\x82\xacz";
+  const std::vector<std::string> begins{"", "a", "a", "a", "a\xe2\x82\xac", text, text};
+  for (std::size_t most = 0; most < begins.size(); ++most) EXPECT_EQ(beginOf(text, most), begins[most]) << most;
+  EXPECT_EQ(beginOf("\x82\xac!", 1), "");
+}
+
 TEST(Utf8, WhatIsNoneBecomesQuestionMarks) {
   EXPECT_EQ(validUtf8("s\xfc"), "s?");
   EXPECT_EQ(validUtf8("\xc0\x80"), "??");  // overlong
@@ -45,5 +52,11 @@ TEST(Utf8, WhatIsNoneBecomesQuestionMarks) {
   EXPECT_TRUE(isUtf8(""));
 }
 
+TEST(Utf8, ALineForATerminalHasNoControlCharacters) {
+  EXPECT_EQ(printable("a\x1b[31m\r\n\t\x7f.\xc2\x9b\xfc"), "a?[31m????.??");
+  EXPECT_EQ(printable("Maße: 3 × 4 µm"), "Maße: 3 × 4 µm");
+  EXPECT_EQ(printable(""), "");
+}
+
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_utf8

@@ -16,7 +16,7 @@
 #include "temp_folder.h"
 #include "tools/trace.h"
 
-namespace hl {
+namespace hl::test_batch {
 namespace {
 
 using Scene = std::unique_ptr<HLbatchScene, decltype(&hlBatchDeleteScene)>;
@@ -356,4 +356,4 @@ TEST(Batch, ASceneMayBeUsedByThreadsAtOnce) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_batch

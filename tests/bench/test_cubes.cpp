@@ -5,7 +5,7 @@
 
 #include "cubes/body_engine.h"
 
-namespace hl::bench {
+namespace hl::bench::test_cubes {
 namespace {
 
 CubeState cubeAt(const Vec3& centre, double turn_rad = 0) {
@@ -45,4 +45,4 @@ TEST(Cubes, TheFingerFeelsTheFriction) {
 }
 
 }  // namespace
-}  // namespace hl::bench
+}  // namespace hl::bench::test_cubes

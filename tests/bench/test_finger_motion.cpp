@@ -8,7 +8,7 @@
 #include "tick/feel.h"
 #include "tick/finger_motion.h"
 
-namespace hl::bench {
+namespace hl::bench::test_finger_motion {
 namespace {
 
 constexpr std::size_t kTicks = 3000;
@@ -135,4 +135,4 @@ TEST(FingerMotion, CornersRestOnTwoAndThreePlanes) {
 }
 
 }  // namespace
-}  // namespace hl::bench
+}  // namespace hl::bench::test_finger_motion

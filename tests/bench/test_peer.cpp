@@ -12,7 +12,7 @@
 #include "tick/peers/peers.h"
 #include "tick/suite.h"
 
-namespace hl::bench {
+namespace hl::bench::test_peer {
 namespace {
 
 constexpr double kRadius_m = 1e-3;
@@ -135,4 +135,4 @@ TEST(Suite, GrowthOfOneSizeIsNotPrintedAndRowsCountEveryTick) {
 }
 
 }  // namespace
-}  // namespace hl::bench
+}  // namespace hl::bench::test_peer

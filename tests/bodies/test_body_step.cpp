@@ -7,7 +7,7 @@
 #include "draws.h"
 #include "test_worlds.h"
 
-namespace hl {
+namespace hl::test_body_step {
 namespace {
 
 using namespace test;
@@ -358,4 +358,4 @@ TEST(BodyStep, TheEnergyBookTellsEveryJoule) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_body_step

@@ -9,7 +9,7 @@
 #include "draws.h"
 #include "mesh_drawings.h"
 
-namespace hl {
+namespace hl::test_compounds {
 namespace {
 
 using namespace test;
@@ -294,4 +294,4 @@ TEST(Compounds, TheCornersBearWhatStandsOnAFace) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_compounds

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace hl {
+namespace hl::test_contact_hull {
 namespace {
 
 constexpr double kSlack_m = 1e-9;
@@ -43,4 +43,4 @@ TEST(ContactHull, OfOneOrTwoContactsKeepsNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_contact_hull

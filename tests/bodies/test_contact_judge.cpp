@@ -6,7 +6,7 @@
 
 #include "bodies/test_worlds.h"
 
-namespace hl {
+namespace hl::test_contact_judge {
 namespace {
 
 using Real = long double;
@@ -205,7 +205,7 @@ Real apart(const Contacts& contacts, const Contacts& other) {
 
 constexpr int kPiles = 100, kSteps = 3;
 
-// Where a solve ends at its limit of work, it says so, and is near; the rest is solved.
+// Where a solve ends at its limit of work, it says so, and is near; the rest is solved, to some changes of 1e-11.
 TEST(ContactJudge, R30AStepMeetsTheConditionsOfCoulombAndSignorini) {
   int touches = 0, pressed = 0, unsolved = 0;
   for (const double friction : {0.0, 0.1, 0.3, 0.9}) {
@@ -217,7 +217,7 @@ TEST(ContactJudge, R30AStepMeetsTheConditionsOfCoulombAndSignorini) {
         touches += static_cast<int>(found.touches.size());
         pressed += pile.pressed();
         unsolved += !pile.converged();
-        EXPECT_LT(residual(found), pile.converged() ? 1e-10L : 5e-2L) << friction << " " << run << " " << step;
+        EXPECT_LT(residual(found), pile.converged() ? 1e-9L : 5e-2L) << friction << " " << run << " " << step;
       }
     }
   }
@@ -243,4 +243,4 @@ TEST(ContactJudge, R30WithoutFrictionAStepFindsTheVelocitiesOfTheJudge) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_contact_judge

@@ -5,7 +5,7 @@
 
 #include "draws.h"
 
-namespace hl {
+namespace hl::test_convex_cuts {
 namespace {
 
 using namespace test;
@@ -84,4 +84,4 @@ TEST(CutPiece, OfTwoIsThatOfTheirTriangles) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_convex_cuts

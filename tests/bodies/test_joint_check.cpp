@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "joint_worlds.h"
 
-namespace hl {
+namespace hl::test_joint_check {
 namespace {
 
 using namespace test;
@@ -78,4 +78,4 @@ TEST(ForceTable, MeansAndEnergiesAreThoseOfItsLines) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_joint_check

@@ -8,7 +8,7 @@
 #include "bodies/world_hash.h"
 #include "joint_worlds.h"
 
-namespace hl {
+namespace hl::test_joint_sleep {
 namespace {
 
 using namespace test;
@@ -166,4 +166,4 @@ TEST(JointSleep, R28TheSameBitsWhateverTheOrder) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_joint_sleep

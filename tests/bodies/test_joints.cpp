@@ -6,7 +6,7 @@
 #include "base/realtime_guard.h"
 #include "joint_worlds.h"
 
-namespace hl {
+namespace hl::test_joints {
 namespace {
 
 using namespace test;
@@ -338,4 +338,4 @@ TEST(Joints, AStepTakesNoMemory) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_joints

@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "bodies/placed_bodies.h"
+#include "draws.h"
 
-namespace hl {
+namespace hl::test_manifold {
 namespace {
 
 struct PlacedShape {
@@ -78,5 +79,44 @@ TEST(Manifold, ACapsuleLiesOnABoxWithTwoPoints) {
   for (const ManifoldPoint& point : found.points) EXPECT_NEAR(point.gap, 0, 1e-12);
 }
 
+// m, from a box at the origin; < 0 within.
+double heightOver(const Vec3& half, const Vec3& point) {
+  const Vec3 beyond = point.cwiseAbs() - half;
+  return beyond.maxCoeff() > 0 ? beyond.cwiseMax(0.0).norm() : beyond.maxCoeff();
+}
+
+// The least along a segment, on which the height is convex: each time a third of it is left out.
+double heightOver(const Vec3& half, Vec3 begin, Vec3 end) {
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 one = begin + (end - begin) / 3, other = end - (end - begin) / 3;
+    if (heightOver(half, one) < heightOver(half, other))
+      end = other;
+    else
+      begin = one;
+  }
+  return heightOver(half, begin);
+}
+
+TEST(Manifold, ACapsuleMeetsABoxAsNearAsItIs) {
+  test::Draws draws(1);
+  int near = 0;
+  while (near < 3000) {
+    const Vec3 half(draws.between(0.005, 0.04), draws.between(0.005, 0.04), draws.between(0.005, 0.04));
+    const double half_length = draws.between(0.004, 0.05), radius = draws.between(0.002, 0.015);
+    const Vec3 at = half.norm() * draws.between(0.5, 2.5) * draws.direction(), along = draws.direction();
+    const double gap = heightOver(half, at - half_length * along, at + half_length * along) - radius;
+    if (std::abs(gap) > 5e-4) continue;
+    ++near;
+    const PlacedShape a(capsuleShape(half_length, radius), at,
+                        Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), along));
+    const PlacedShape b(boxShape(half), Vec3::Zero());
+    Manifold found;
+    ASSERT_TRUE(findManifold(a.at, b.at, 1e-3, found));
+    double least = 1;
+    for (const ManifoldPoint& point : found.points) least = std::min(least, point.gap);
+    EXPECT_NEAR(least, gap, 1e-5) << near;
+  }
+}
+
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_manifold

@@ -16,7 +16,7 @@
 #include "draws.h"
 #include "mesh_drawings.h"
 
-namespace hl {
+namespace hl::test_mesh_parts {
 namespace {
 
 using namespace test;
@@ -266,7 +266,7 @@ TEST(MeshParts, WhatIsFlatGetsAThickness) {
 
 // Boxes on a circle: a hull of neighbours is near enough to them, one of all is not.
 TEST(MeshParts, OfMorePiecesThanMayBeAreCutTogether) {
-  for (const std::size_t count : {kMostParts, kMostParts + 1, std::size_t{120}}) {
+  for (const std::size_t count : {kMaxParts, kMaxParts + 1, std::size_t{120}}) {
     std::vector<std::pair<Vec3, Vec3>> boxes;
     for (std::size_t i = 0; i < count; ++i) {
       const double angle = 2 * EIGEN_PI * static_cast<double>(i) / static_cast<double>(count);
@@ -274,8 +274,8 @@ TEST(MeshParts, OfMorePiecesThanMayBeAreCutTogether) {
     }
     const MeshParts made = partsOfMesh(boxesModel(boxes));
     const std::vector<Convex>& parts = made.shape.parts;
-    EXPECT_LE(parts.size(), kMostParts);
-    EXPECT_GE(parts.size(), count == kMostParts ? kMostParts : std::size_t{8});
+    EXPECT_LE(parts.size(), kMaxParts);
+    EXPECT_GE(parts.size(), count == kMaxParts ? kMaxParts : std::size_t{8});
     EXPECT_LT(made.error_m, 0.02 * 14.3);
     EXPECT_LT(made.excess_m, 0.4);
     for (double angle = 0; angle < 6.28; angle += 0.02) {
@@ -288,4 +288,4 @@ TEST(MeshParts, OfMorePiecesThanMayBeAreCutTogether) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_mesh_parts

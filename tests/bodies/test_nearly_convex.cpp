@@ -13,7 +13,7 @@
 #include "environment.h"
 #include "mesh_drawings.h"
 
-namespace hl {
+namespace hl::test_nearly_convex {
 namespace {
 
 using namespace test;
@@ -264,4 +264,4 @@ TEST(NearlyConvex, ASheetIsAPlate) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_nearly_convex

@@ -6,7 +6,7 @@
 #include "draws.h"
 #include "joint_worlds.h"
 
-namespace hl {
+namespace hl::test_random_joints {
 namespace {
 
 using namespace test;
@@ -92,4 +92,4 @@ TEST(RandomJoints, EveryJouleIsToldAndJointsHold) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_random_joints

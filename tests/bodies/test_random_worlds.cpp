@@ -9,7 +9,7 @@
 #include "draws.h"
 #include "mesh_drawings.h"
 
-namespace hl {
+namespace hl::test_random_worlds {
 namespace {
 
 using namespace test;
@@ -127,4 +127,4 @@ TEST(RandomWorlds, NothingLeavesAClosedRoom) { expectThatNothingLeaves(6); }
 TEST(RandomWorlds, NothingOfPartsLeavesAClosedRoom) { expectThatNothingLeaves(9); }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_random_worlds

@@ -9,7 +9,7 @@
 #include "bodies/mesh_drawings.h"
 #include "bodies/test_worlds.h"
 
-namespace hl {
+namespace hl::test_scene_world {
 namespace {
 
 constexpr double kStep_s = 1e-3, kFall_m = 0.01;
@@ -107,4 +107,4 @@ TEST(SceneWorld, PartsThatAreFarFromTheMeshAreToldOnceForAShape) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_scene_world

@@ -9,7 +9,7 @@
 #include "bodies/draws.h"
 #include "bodies/test_worlds.h"
 
-namespace hl {
+namespace hl::test_scenery {
 namespace {
 
 constexpr std::int64_t kStep_ns = 1'000'000;
@@ -188,4 +188,4 @@ TEST(Scenery, BodiesLieOnGroundsOfManyTriangles) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_scenery

@@ -5,11 +5,12 @@
 #include <random>
 
 #include "bodies/mesh_body.h"
+#include "bodies/motion_plan.h"
 #include "bodies/sleep.h"
 #include "bodies/world_hash.h"
 #include "mesh_drawings.h"
 
-namespace hl {
+namespace hl::test_sleep {
 namespace {
 
 using namespace test;
@@ -75,6 +76,49 @@ TEST(Sleep, TheEnergyOfWhatFallsAsleepIsBooked) {
   play.steps(600);
   EXPECT_EQ(play.state.bodies[0].velocity, Vec3::Zero());
   EXPECT_NEAR(play.state.energy.contact_J, begin_J, 1e-18);
+}
+
+double deepestOf(Playground& play) {
+  wakeAll(play.state);
+  return play.step().deepest;
+}
+
+// A box in the floor, and one in the other. No step moves anything faster than the two overlaps are removed.
+TEST(Sleep, WhatBeginsOverlappedComesApartBeforeItSleeps) {
+  for (const double gravity : {0.0, -9.81}) {
+    for (const double overlap_m : {2e-5, 5e-4, 2e-3, 5e-3}) {
+      World world;
+      world.gravity_m_s2 = Vec3(0, gravity, 0);
+      world.fixed = floorScene();
+      world.bodies = {block(1, 0.1, Vec3::Constant(0.02), 0.5), block(2, 0.1, Vec3::Constant(0.02), 0.5)};
+      Playground play(std::move(world),
+                      {placeAt(Vec3(0, 0.02 - overlap_m, 0)), placeAt(Vec3(0, 0.06 - 2 * overlap_m, 0.003))});
+      const double begin_J = play.energy_J();
+      double fastest_m_s = 0;
+      for (int i = 0; i < 800; ++i) {
+        const double last_m = play.state.bodies[1].centre.y();
+        play.step();
+        fastest_m_s = std::max(fastest_m_s, (play.state.bodies[1].centre.y() - last_m) / kStep_s);
+        ASSERT_NEAR(play.energy_J() - begin_J, play.state.energy.change_J(), 1e-12) << i;
+      }
+      EXPECT_TRUE(sleeps(play, 0, 2)) << gravity << " " << overlap_m;
+      EXPECT_LT(fastest_m_s, 2.1 * kMaxApart_m_s);
+      EXPECT_LT(deepestOf(play), 2e-9) << gravity << " " << overlap_m;
+    }
+  }
+}
+
+TEST(Sleep, WhatIsWedgedSleepsLater) {
+  World world;
+  world.gravity_m_s2.setZero();
+  world.fixed = makeSnapshot(boxModel(Vec3(0.019, 0.1, 0.1)));
+  world.bodies = {block(1, 0.1, Vec3::Constant(0.02), 0.5)};
+  Playground play(std::move(world), {placeAt(Vec3::Zero())});
+  play.steps(4900);
+  EXPECT_FALSE(sleeps(play, 0, 1));
+  play.steps(200);
+  EXPECT_TRUE(sleeps(play, 0, 1));
+  EXPECT_LT(play.state.bodies[0].centre.norm(), 1e-3);
 }
 
 TEST(Sleep, AHitWakesJustItsIsland) {
@@ -206,4 +250,4 @@ TEST(Sleep, R28TheSameBitsWhateverTheOrderAndWhereverItIsTakenUp) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_sleep

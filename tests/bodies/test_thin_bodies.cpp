@@ -6,7 +6,7 @@
 #include "draws.h"
 #include "test_worlds.h"
 
-namespace hl {
+namespace hl::test_thin_bodies {
 namespace {
 
 using namespace test;
@@ -108,4 +108,4 @@ TEST(ThinBodies, NoneLeavesAClosedRoom) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_thin_bodies

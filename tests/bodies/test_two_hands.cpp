@@ -3,7 +3,7 @@
 
 #include "bodies/test_worlds.h"
 
-namespace hl {
+namespace hl::test_two_hands {
 namespace {
 
 constexpr double kMass_kg = 0.1, kHalf_m = 0.02, kFriction = 0.5, kStiffness_N_m = 1000;
@@ -89,4 +89,4 @@ TEST(TwoHands, R19LetItSlideWithLess) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_two_hands

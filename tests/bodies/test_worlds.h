@@ -83,7 +83,7 @@ struct Playground {
   WorldState state;
   BodyStepper stepper;
   double period_s;
-  std::array<GivenImpulses, kMostHands> given;
+  std::array<GivenImpulses, kMaxHands> given;
 };
 
 /// A finger that pushes one body along +x at a point fixed in the world's y and z: the proxy of a sphere of radius 0,

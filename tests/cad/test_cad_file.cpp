@@ -33,7 +33,7 @@
 #include "scene/scene_model.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_cad_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -288,4 +288,4 @@ TEST_F(CadFile, FilesOfOthersAreRead) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_cad_file

@@ -15,10 +15,10 @@
 #include "proxy/proxy.h"
 #include "scene/scene_model.h"
 
-namespace hl {
+namespace hl::test_cad_mesh {
 namespace {
 
-Model meshOf(const TopoDS_Shape& shape, const CadMeshing& meshing = {}, std::size_t most = kMostCadTriangles) {
+Model meshOf(const TopoDS_Shape& shape, const CadMeshing& meshing = {}, std::size_t most = kMaxCadTriangles) {
   return meshCad(
       {shape}, meshing, [](double) {}, most);
 }
@@ -186,4 +186,4 @@ TEST(CadTouch, ABallAroundASphereIsOneRadiusOutside) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_cad_mesh

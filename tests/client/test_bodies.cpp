@@ -8,7 +8,7 @@
 
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_bodies {
 namespace {
 
 void expectCallError(HLenum error) { EXPECT_EQ(hlGetError(), error); }
@@ -171,4 +171,4 @@ TEST_F(CallsTest, TheStateTellsWhereBodiesAre) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_bodies

@@ -9,7 +9,7 @@
 
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_context {
 namespace {
 
 TEST_F(CallsTest, FirstErrorSticks) {
@@ -217,4 +217,4 @@ TEST_F(CallsTest, LostConnectionIsReportedOnceAndEverythingStaysHarmless) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_context

@@ -9,7 +9,7 @@
 #include "client/event_queue.h"
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_device {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -486,4 +486,4 @@ TEST_F(CallsTest, CallbackThatThrowsIsAnErrorAndTheOthersFollow) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_device

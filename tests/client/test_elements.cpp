@@ -9,7 +9,7 @@
 
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_elements {
 namespace {
 
 class Elements : public CallsTest {
@@ -77,7 +77,7 @@ TEST_F(Elements, AreThePrimitivesOfImmediateCallsWithEachVertexOnce) {
   point();
   std::mt19937 random(7);
   int drawn = 0;
-  for (int round = 0; round < 2000; ++round) {
+  for (int round = 0; round < 300; ++round) {
     const HLenum mode = HL_POINTS + random() % (HL_POLYGON + 1);
     const std::vector<HLuint> indices = randomIndices(random);
     const proto::Frame expected = immediate(mode, indices), found = elements(mode, indices);
@@ -91,7 +91,7 @@ TEST_F(Elements, AreThePrimitivesOfImmediateCallsWithEachVertexOnce) {
     ASSERT_EQ(static_cast<std::size_t>(other.vertices_size()), 3 * once.size());
     ASSERT_EQ(other.normals_size(), other.vertices_size());
   }
-  EXPECT_GT(drawn, 1500);
+  EXPECT_GT(drawn, 200);
 }
 
 TEST_F(Elements, OfAllVerticesKeepTheirNumbersAndAreMovedByThem) {
@@ -127,4 +127,4 @@ TEST_F(Elements, ThatFillNoPrimitiveKeepNoVertices) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_elements

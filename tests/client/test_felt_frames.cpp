@@ -17,7 +17,7 @@
 #include "felt_server.h"
 #include "touch/touch_step.h"
 
-namespace hl::client {
+namespace hl::client::test_felt_frames {
 namespace {
 
 constexpr std::int64_t kStep_ns = 1'000'000;
@@ -208,4 +208,4 @@ TEST_F(FeltFrames, ATextureUnderTheFingerIsFelt) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_felt_frames

@@ -17,7 +17,7 @@
 #include "touch/touch_step.h"
 #include "wait_for.h"
 
-namespace hl::client {
+namespace hl::client::test_felt_joints {
 namespace {
 
 constexpr double kStep_s = 1e-3, kRadius_m = 0.001, kSpring_N_m = 1000;
@@ -162,4 +162,4 @@ TEST_F(FeltJoints, AProgramReadsAnAngleThatStaysWhileFramesDrawTheDoorAgain) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_felt_joints

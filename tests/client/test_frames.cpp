@@ -12,7 +12,7 @@
 #include "client/fake_server.h"
 #include "client/outbox.h"
 
-namespace hl::client {
+namespace hl::client::test_frames {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -32,6 +32,46 @@ TEST_F(CallsTest, WhatIsDrawnReplacesTheWorldAndNumbersRise) {
   const proto::Frame second = flushed();
   EXPECT_EQ(second.number(), 2U);
   EXPECT_EQ(second.world().items(0).primitives().triangles_size(), 6);
+}
+
+TEST_F(CallsTest, ACancelledFrameHasNotBeen) {
+  const auto define = [&](HLuint object, int triangles) {
+    hlNewObject(object);
+    for (int i = 0; i < triangles; ++i) triangle(i);
+    hlEndObject();
+  };
+  const HLuint image = 1, later = 2, one = 1;
+  hlBindTexture(HL_TEXTURE_2D, image);
+  hlTexImage2D(HL_TEXTURE_2D, 0, HL_LUMINANCE, 1, 1, 0, HL_LUMINANCE, HL_UNSIGNED_BYTE, "a");
+  define(1, 1);
+  flushed();
+  triangle();
+  define(1, 3);
+  define(2, 1);
+  hlDeleteObjects(1, &one);
+  hlDeleteTextures(1, &image);
+  hlBindTexture(HL_TEXTURE_2D, later);
+  hlTexImage2D(HL_TEXTURE_2D, 0, HL_LUMINANCE, 1, 1, 0, HL_LUMINANCE, HL_UNSIGNED_BYTE, "b");
+  hlNewObject(3);
+  hlCancelFrame();
+  expectError(HL_NO_ERROR);
+  EXPECT_EQ(integer(HL_CURRENT_OBJECT), 0);
+  EXPECT_EQ(integer(HL_TEXTURE_BINDING_2D), 0);
+  EXPECT_EQ(hlIsTexture(image), HL_TRUE);
+  EXPECT_EQ(hlIsTexture(later), HL_FALSE);
+  EXPECT_EQ(hlIsObject(1), HL_TRUE);
+  EXPECT_EQ(hlIsObject(2), HL_FALSE);
+  EXPECT_EQ(hlIsObject(3), HL_FALSE);
+  hlFinish();
+  EXPECT_EQ(server->frames().size(), 1U);
+  const std::array<HLdouble, 3> moved{};
+  hlUpdateVertices(1, 2, 1, moved.data(), nullptr);  // it has three vertices again
+  expectError(HL_NO_ERROR);
+  hlUpdateVertices(1, 3, 1, moved.data(), nullptr);
+  expectError(HL_INVALID_VALUE);
+  const proto::Frame next = flushed();
+  EXPECT_FALSE(next.has_world());
+  EXPECT_EQ(next.objects_size() + next.deleted_objects_size() + next.textures_size() + next.deleted_textures_size(), 0);
 }
 
 TEST_F(CallsTest, HeightFieldsAreSentWithTheirSamples) {
@@ -667,4 +707,4 @@ TEST_F(SmallServer, FrameThatIsTooLargeIsOutOfMemoryAndDropped) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_frames

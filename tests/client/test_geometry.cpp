@@ -8,7 +8,7 @@
 
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_geometry {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -352,4 +352,4 @@ TEST_F(Arrays, DrawingIsNotAllowedBetweenBeginAndEnd) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_geometry

@@ -11,7 +11,7 @@
 
 extern "C" int useFromC(void);
 
-namespace hl::client {
+namespace hl::client::test_headers {
 namespace {
 
 TEST(Header, IsC99) { EXPECT_EQ(useFromC(), 0); }
@@ -82,6 +82,29 @@ TEST_F(Cpp, ScopesEndWhatTheyBegan) {
   EXPECT_GT(genTexture(), 0U);
 }
 
+TEST_F(Cpp, ADefinitionThatAnExceptionLeavesDoesNotCount) {
+  const Context context("fake:");
+  const HLuint object = genObject();
+  const auto define = [&](bool fails) {
+    const ObjectScope definition(object);
+    const NameScope name(fails ? 4 : 3);
+    const PrimitiveScope points(HL_POINTS);
+    hlVertex3d(1, 2, 3);
+    if (fails) throw std::runtime_error("in the definition");
+  };
+  EXPECT_THROW(define(true), std::runtime_error);
+  EXPECT_EQ(hlIsObject(object), HL_FALSE);
+  hlClear();
+  EXPECT_EQ(flushed().objects_size(), 0);
+  define(false);
+  EXPECT_THROW(define(true), std::runtime_error);
+  EXPECT_EQ(hlIsObject(object), HL_TRUE);
+  const proto::Frame frame = flushed();
+  EXPECT_EQ(frame.objects_size(), 1);
+  EXPECT_EQ(frame.objects(0).items(0).name(), 3U);
+  EXPECT_NO_THROW(check());
+}
+
 TEST_F(Cpp, SpansDrawWhatTheCallsDraw) {
   const Context context("fake:");
   const std::vector<HLfloat> vertices{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
@@ -118,6 +141,10 @@ TEST_F(Cpp, SpansMoveVertices) {
   EXPECT_EQ(flushed().moved(0).primitives().normals_size(), 3);
   EXPECT_THROW(updateVertices(object, 0, moved, vertices), std::invalid_argument);
   EXPECT_THROW(updateVertices(object, 0, std::span(vertices).first(4)), std::invalid_argument);
+  constexpr std::size_t kTooMany = std::size_t{1} << 32;  // 0 as an HLsizei
+  EXPECT_THROW(heightField(kTooMany, std::span<const HLfloat>{}), std::invalid_argument);
+  EXPECT_THROW(depthFrame({1, 1, 0, 0}, kTooMany, {}), std::invalid_argument);
+  EXPECT_THROW(volume(kTooMany, kTooMany, std::span<const HLfloat>{}, 0), std::invalid_argument);
   check();
 }
 
@@ -162,4 +189,4 @@ TEST_F(Cpp, EventFunctionsMayMoveAndThrow) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_headers

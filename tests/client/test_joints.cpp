@@ -7,7 +7,7 @@
 
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_joints {
 namespace {
 
 void expectJointError(HLenum error) { EXPECT_EQ(hlGetError(), error); }
@@ -189,4 +189,4 @@ TEST_F(CallsTest, TheStateTellsWhatJointsDo) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_joints

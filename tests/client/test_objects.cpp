@@ -7,7 +7,7 @@
 
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_objects {
 namespace {
 
 void expectError(HLenum error) { EXPECT_EQ(hlGetError(), error); }
@@ -455,4 +455,4 @@ TEST_F(Textures, MisuseIsAnError) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_objects

@@ -9,7 +9,7 @@
 
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_random_calls {
 namespace {
 
 // What the rules say the calls' state is.
@@ -19,6 +19,7 @@ struct Model {
   int matrices = 1, attributes = 0, names = 0;
   int outer_matrices = 1, outer_attributes = 0, outer_names = 0;
   std::set<HLuint> objects;
+  std::set<HLuint> kept;    // objects before the frame
   std::set<HLuint> joints;  // of the frame
 };
 
@@ -28,7 +29,7 @@ class RandomCall {
   explicit RandomCall(Model& model) : model_(model) {}
 
   HLenum make() {
-    switch (*rc::gen::inRange(0, 19)) {
+    switch (*rc::gen::inRange(0, 21)) {
       case 0:
         return begin();
       case 1:
@@ -67,6 +68,10 @@ class RandomCall {
         return join();
       case 17:
         return frame(*rc::gen::element(hlFlush, hlFinish, hlClear));
+      case 18:
+        return cancelObject();
+      case 19:
+        return cancelFrame();
       default:
         return notBetween([] { hlPoll(); });
     }
@@ -135,11 +140,29 @@ class RandomCall {
   HLenum endObject() {
     hlEndObject();
     if (model_.between || model_.defining == 0) return HL_INVALID_OPERATION;
-    model_.objects.insert(std::exchange(model_.defining, 0));
+    model_.objects.insert(model_.defining);
+    leaveDefinition();
+    return HL_NO_ERROR;
+  }
+  HLenum cancelObject() {
+    hlCancelObject();
+    if (model_.between || model_.defining == 0) return HL_INVALID_OPERATION;
+    leaveDefinition();
+    return HL_NO_ERROR;
+  }
+  HLenum cancelFrame() {
+    hlCancelFrame();
+    if (model_.between) return HL_INVALID_OPERATION;
+    if (model_.defining != 0) leaveDefinition();
+    model_.objects = model_.kept;
+    model_.joints.clear();
+    return HL_NO_ERROR;
+  }
+  void leaveDefinition() {
+    model_.defining = 0;
     model_.matrices = model_.outer_matrices;
     model_.attributes = model_.outer_attributes;
     model_.names = model_.outer_names;
-    return HL_NO_ERROR;
   }
   // Definitions call only objects of lower numbers here, so that only a call of itself is a circle.
   HLenum callObject() {
@@ -173,6 +196,7 @@ class RandomCall {
     call();
     if (model_.between || model_.defining != 0) return HL_INVALID_OPERATION;
     model_.joints.clear();
+    if (call != hlClear) model_.kept = model_.objects;
     return HL_NO_ERROR;
   }
 
@@ -230,4 +254,4 @@ RC_GTEST_FIXTURE_PROP(RandomCalls, MakeExactlyTheErrorsOfTheRules, ()) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_random_calls

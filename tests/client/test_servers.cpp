@@ -21,7 +21,7 @@
 #include "session/touch_server.h"
 #include "tools/trace.h"
 
-namespace hl::client {
+namespace hl::client::test_servers {
 namespace {
 
 std::shared_ptr<TouchServer> startServer() {
@@ -391,4 +391,4 @@ TEST(Inproc, LeavesTheMemoryOfTheProgramAlone) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_servers

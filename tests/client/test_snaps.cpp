@@ -5,7 +5,7 @@
 
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_snaps {
 namespace {
 
 HLenum errorOf(void (*call)()) {
@@ -130,4 +130,4 @@ TEST_F(CallsTest, TheStateTellsWhichSnapHolds) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_snaps

@@ -8,7 +8,7 @@
 
 #include "client/fake_server.h"
 
-namespace hl::client {
+namespace hl::client::test_state {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -146,12 +146,14 @@ TEST_F(CallsTest, NothingButVerticesBetweenBeginAndEnd) {
                                       [] { hlPopName(); },
                                       [] { hlNewObject(3); },
                                       [] { hlEndObject(); },
+                                      [] { hlCancelObject(); },
                                       [] { hlCallObject(3); },
                                       [] { hlIsObject(3); },
                                       [] { hlDeleteObjects(0, nullptr); },
                                       [] { hlUpdateVertices(3, 0, 0, nullptr, nullptr); },
                                       [] { hlGenObjects(0, nullptr); },
                                       [] { hlClear(); },
+                                      [] { hlCancelFrame(); },
                                       [] { hlFlush(); },
                                       [] { hlFinish(); },
                                       [] { hlFinishTimeout(0); },
@@ -296,4 +298,4 @@ TEST_F(CallsTest, QueriesConvertAsInGl) {
 }
 
 }  // namespace
-}  // namespace hl::client
+}  // namespace hl::client::test_state

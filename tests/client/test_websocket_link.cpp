@@ -16,7 +16,7 @@
 #include "plain_client.h"
 #include "test_certificate.h"
 
-namespace hl {
+namespace hl::test_websocket_link {
 namespace {
 
 using namespace test;
@@ -248,4 +248,4 @@ TEST(WebsocketLink, TheWrongSchemeIsRecognised) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_websocket_link

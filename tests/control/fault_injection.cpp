@@ -89,7 +89,7 @@ void Life::changeSettings() {
   settings_.stiffness_N_m = uniform(0, 3500);
   settings_.damping_Ns_m = uniform(0, 5);
   settings_.ledger = static_cast<LedgerMode>(random_() % 3);
-  settings_.guard.on = oneIn(2);
+  settings_.passivity.on = oneIn(2);
   settings_.vibration.on = oneIn(2);
   settings_.effects = {uniform(0, 0.2), uniform(0, 5), uniform(0, 500), within(0.1), within(3)};
   settings_.remote.on = oneIn(2);

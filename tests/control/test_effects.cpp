@@ -5,7 +5,7 @@
 
 #include "control/servo_options.h"
 
-namespace hl {
+namespace hl::test_effects {
 namespace {
 
 DeviceSample at(const Vec3& position) {
@@ -88,4 +88,4 @@ TEST(ServoOptions, LimitsOnlyLower) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_effects

@@ -12,7 +12,7 @@
 #include "device/phantom_arm.h"
 #include "device/simulated_device.h"
 
-namespace hl {
+namespace hl::test_hand_over {
 namespace {
 
 constexpr double kK = 1000;
@@ -116,4 +116,4 @@ TEST(HandOver, LateProxiesFeedNoEnergyBeyondTheTank) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_hand_over

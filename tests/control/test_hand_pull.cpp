@@ -6,7 +6,7 @@
 #include "base/latest.h"
 #include "base/realtime_guard.h"
 
-namespace hl {
+namespace hl::test_hand_pull {
 namespace {
 
 constexpr std::int64_t kNow_ns = 1'000'000'000;
@@ -75,4 +75,4 @@ TEST(HandPull, TheServoTakesItWithoutMemoryOrLocks) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_hand_pull

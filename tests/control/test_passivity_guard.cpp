@@ -10,7 +10,7 @@
 
 #include "control/servo.h"
 
-namespace hl {
+namespace hl::test_passivity_guard {
 namespace {
 
 constexpr double kPeriod_s = 1e-3;
@@ -38,7 +38,7 @@ Swing press(const Loop& loop) {
   settings.velocity_limit_m_s = 100;
   settings.ramp_s = kPeriod_s;
   settings.ledger = LedgerMode::kReport;  // the hand-over must not mend what the guard is to mend
-  settings.guard.on = loop.guard;
+  settings.passivity.on = loop.guard;
   settings.vibration.on = false;
   ServoState state;
   arm(state);
@@ -83,7 +83,7 @@ TEST(PassivityGuard, ALoopThatFeedsEnergyIsMadeBounded) {
 
 // What only takes energy never runs into debt.
 TEST(PassivityGuard, APassiveHandIsNotTouched) {
-  GuardSettings settings;
+  PassivitySettings settings;
   PassivityGuard guard;
   double taken_J = 0;
   Vec3 at = Vec3::Zero();
@@ -91,7 +91,7 @@ TEST(PassivityGuard, APassiveHandIsNotTouched) {
     const Vec3 next = 0.01 * Vec3(std::sin(0.01 * i), std::cos(0.013 * i), 0);
     const Vec3 way = next - at;
     at = next;
-    const Vec3 force_N = guarded(guard, settings, -way.normalized(), way, true, kPeriod_s);
+    const Vec3 force_N = dampedToPassive(guard, settings, -way.normalized(), way, true, kPeriod_s);
     EXPECT_EQ(force_N, Vec3(-way.normalized()));
     if (i > 0) taken_J = guard.energy_J;
     guard.held_N = -(0.01 * Vec3(std::sin(0.01 * (i + 1)), std::cos(0.013 * (i + 1)), 0) - at).normalized();
@@ -101,18 +101,18 @@ TEST(PassivityGuard, APassiveHandIsNotTouched) {
 }
 
 TEST(PassivityGuard, ADebtIsKeptInTheOpenAndASurplusIsForgotten) {
-  GuardSettings settings;
+  PassivitySettings settings;
   PassivityGuard guard;
   guard.energy_J = 0.01;
-  guarded(guard, settings, Vec3::Zero(), Vec3(1e-3, 0, 0), false, kPeriod_s);
+  dampedToPassive(guard, settings, Vec3::Zero(), Vec3(1e-3, 0, 0), false, kPeriod_s);
   EXPECT_EQ(guard.energy_J, 0);
   guard.energy_J = -0.01;
-  guarded(guard, settings, Vec3::Zero(), Vec3(1e-3, 0, 0), false, kPeriod_s);
+  dampedToPassive(guard, settings, Vec3::Zero(), Vec3(1e-3, 0, 0), false, kPeriod_s);
   EXPECT_EQ(guard.energy_J, -0.01);
   // A damper that would take it back in one step would need 10 Ns/m at 1 m/s.
-  const Vec3 force_N = guarded(guard, settings, Vec3::Zero(), Vec3(1e-3, 0, 0), true, kPeriod_s);
+  const Vec3 force_N = dampedToPassive(guard, settings, Vec3::Zero(), Vec3(1e-3, 0, 0), true, kPeriod_s);
   EXPECT_NEAR(force_N.x(), -10, 1e-9);
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_passivity_guard

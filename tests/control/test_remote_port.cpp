@@ -9,7 +9,7 @@
 
 #include "base/realtime_guard.h"
 
-namespace hl {
+namespace hl::test_remote_port {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -198,4 +198,4 @@ TEST(RemotePort, NeedsNoMemoryAndNoLocks) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_remote_port

@@ -13,7 +13,7 @@
 #include "control/watchdog.h"
 #include "device/simulated_device.h"
 
-namespace hl {
+namespace hl::test_safety {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -278,4 +278,4 @@ TEST(Watchdog, TheSimulatedDeviceStopsOutsideTheServosCalls) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_safety

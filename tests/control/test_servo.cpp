@@ -9,7 +9,7 @@
 
 #include "base/realtime_guard.h"
 
-namespace hl {
+namespace hl::test_servo {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
@@ -264,4 +264,4 @@ TEST(Servo, SettingsComeFromTheDevice) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_servo

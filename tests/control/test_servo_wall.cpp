@@ -5,7 +5,7 @@
 #include "control/servo.h"
 #include "device/simulated_device.h"
 
-namespace hl {
+namespace hl::test_servo_wall {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
@@ -74,4 +74,4 @@ INSTANTIATE_TEST_SUITE_P(Grip, Wall, testing::Bool(),
                          [](const auto& grip) { return std::string(grip.param ? "Firm" : "Light"); });
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_servo_wall

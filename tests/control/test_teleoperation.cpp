@@ -6,7 +6,7 @@
 
 #include "control/teleop_world.h"
 
-namespace hl {
+namespace hl::test_teleoperation {
 namespace {
 
 using test::Person;
@@ -104,4 +104,4 @@ RC_GTEST_PROP(TeleoperationOnAnyLine, GivesNoMoreThanItsTanks, ()) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_teleoperation

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 
-namespace hl {
+namespace hl::test_loopback_only {
 namespace {
 
 class Socket {
@@ -95,4 +95,4 @@ TEST(LoopbackOnly, LocalSocketsAreAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_loopback_only

@@ -8,7 +8,7 @@
 #include <array>
 #include <string>
 
-namespace hl {
+namespace hl::test_repeated_handshakes {
 namespace {
 
 class RepeatedHandshakes : public testing::Test {
@@ -50,4 +50,4 @@ TEST_F(RepeatedHandshakes, EachGoesOutSeveralTimesAndDataOnce) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_repeated_handshakes

@@ -17,7 +17,7 @@
 #include "touch/session_views.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_ros_security {
 namespace {
 
 using test::FastPeer;
@@ -181,4 +181,4 @@ TEST_F(RosSecurity, AnEnclaveThatDoesNotFitIsRefusedBeforeAnybodyCouldReachTheHa
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_ros_security

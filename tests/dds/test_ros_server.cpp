@@ -22,7 +22,7 @@
 #include "touch/session_views.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_ros_server {
 namespace {
 
 using test::FastPeer;
@@ -271,16 +271,19 @@ pid_t processOf(const std::string& word) {
   return 0;
 }
 
-// Whatever ends it: the hand is let go, and its servo goes on.
+// Whatever ends it: the hand is let go, its servo goes on, and whoever writes is heard again by the next hl-ros.
 TEST_F(RosServer, HlRosMayDie) {
   const auto forces = writer("servo_cf", test::kWrenchType);
-  test::waitFor([&] {
+  const auto pushed = [&] {
     forces->write(test::wrenchOf("", {1, 0, 0}));
     return force().x() > 0;
-  });
+  };
+  test::waitFor(pushed);
   kill(processOf(hand_), SIGKILL);
-  test::waitFor([&] { return !bridge_.counts().running; });
   test::waitFor([&] { return force().isZero(0); });
+  test::waitFor([&] { return bridge_.counts().starts == 1; });
+  test::waitFor(pushed);
+  EXPECT_TRUE(bridge_.counts().running);
   const std::uint64_t steps = session_.servoTotals().steps;
   test::waitFor([&] { return session_.servoTotals().steps > steps + 10; });
 }
@@ -328,4 +331,4 @@ TEST(RosOfHld, HldServesBothHandsAndTakesHlRosAlongWhenItEnds) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_ros_server

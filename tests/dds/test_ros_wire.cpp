@@ -11,7 +11,7 @@
 #include "ros/ros_process.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_ros_wire {
 namespace {
 
 using test::FastPeer;
@@ -252,4 +252,4 @@ TEST(RosWire, AProgramOfAnotherVersionIsRefused) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_ros_wire

@@ -16,7 +16,7 @@
 #include "temp_folder.h"
 #include "wait_for.h"
 
-namespace hl::test {
+namespace hl::test::test_share_line {
 namespace {
 
 TEST(SharedWorldOnALine, WhatMovesFarAwayIsFeltWithinTheTankAndEndsAtTheSamePlace) {
@@ -132,4 +132,4 @@ TEST_F(KilledServer, LosesNothingHoweverOftenItIsKilledAndNoHandMoves) {
 }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_share_line

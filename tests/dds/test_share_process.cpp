@@ -22,7 +22,7 @@
 #include "temp_folder.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_share_process {
 namespace {
 
 using test::waitFor;
@@ -70,7 +70,7 @@ TEST(ShareProcessTest, TheLastItemOfEachKeyAndServerIsThereForThoseWhoComeLater)
   for (int i = 0; i < 100; ++i) sendSurely(*a, {Lane::kItems, 5, "older " + std::to_string(i)});
   sendSurely(*a, {Lane::kItems, 5, "of a"});
   sendSurely(*b, {Lane::kItems, 6, "of b"});
-  sendSurely(*a, {Lane::kItems, 7, std::string(kMostPacket_bytes, 'x')});
+  sendSurely(*a, {Lane::kItems, 7, std::string(kMaxPacket_bytes, 'x')});
   const auto late = join("items", 3);
   Heard heard;
   waitFor([&] {
@@ -79,7 +79,7 @@ TEST(ShareProcessTest, TheLastItemOfEachKeyAndServerIsThereForThoseWhoComeLater)
     return heard.items.size() == 3 && heard.items[5] == "of a";
   });
   EXPECT_EQ(heard.items[6], "of b");
-  EXPECT_EQ(heard.items[7].size(), kMostPacket_bytes);
+  EXPECT_EQ(heard.items[7].size(), kMaxPacket_bytes);
 }
 
 TEST(ShareProcessTest, AnInboxIsHeardByItsServerAloneInOrderAndWhole) {
@@ -191,9 +191,9 @@ TEST_F(ShareOverALine, WhatWaitsForASlowServerHoldsUpNoStream) {
   line_->say("from 1 to 2 rate 1");
   std::uint64_t sent = 0;
   const auto sendAll = [&] {
-    while (a->send({Lane::kItems, sent + 1, std::string(kMostPacket_bytes, 'x')})) ++sent;
+    while (a->send({Lane::kItems, sent + 1, std::string(kMaxPacket_bytes, 'x')})) ++sent;
     a->receive();
-    return sent * kMostPacket_bytes > ShareProcess::kMostWaiting_bytes;
+    return sent * kMaxPacket_bytes > ShareProcess::kMaxWaiting_bytes;
   };
   waitFor(sendAll);
   for (std::uint64_t key = 10; key < 20; ++key) {
@@ -231,4 +231,4 @@ TEST_F(ShareOverALine, WithoutKeysNobodyGoesBeyondTheMachine) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_share_process

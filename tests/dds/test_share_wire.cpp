@@ -9,7 +9,7 @@
 #include "share/share_process.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_share_wire {
 namespace {
 
 constexpr std::uint32_t kDomain = 42;
@@ -64,8 +64,8 @@ TEST_F(ShareWire, WhatIsNoPacketIsCountedAsAnEmptyOne) {
 
 TEST_F(ShareWire, WhatIsTooLongIsCountedAsAnEmptyOneAndTheLongestIsHeard) {
   const dds_entity_t packets = writer(hl_share_Packet_desc);
-  EXPECT_TRUE(heardOfBytes(packets, std::string(kMostPacket_bytes + 1, 'x')).bytes.empty());
-  const std::string longest(kMostPacket_bytes, 'y');
+  EXPECT_TRUE(heardOfBytes(packets, std::string(kMaxPacket_bytes + 1, 'x')).bytes.empty());
+  const std::string longest(kMaxPacket_bytes, 'y');
   test::waitFor([&] {
     const SharePacket heard = heardOfBytes(packets, longest);
     return heard.key == 7 && heard.bytes == longest;
@@ -73,4 +73,4 @@ TEST_F(ShareWire, WhatIsTooLongIsCountedAsAnEmptyOneAndTheLongestIsHeard) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_share_wire

@@ -21,7 +21,7 @@
 #include "touch/session_views.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_teleop_line {
 namespace {
 
 constexpr std::uint32_t kDomain = 3;  // in namespaces of this test alone
@@ -144,4 +144,4 @@ TEST(TeleopOnALine, TheNetworkGivesNoMoreThanItsTanks) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_teleop_line

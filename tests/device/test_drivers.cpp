@@ -13,7 +13,7 @@
 #include "device/open_device.h"
 #include "device/simulated_hand.h"
 
-namespace hl::test {
+namespace hl::test::test_drivers {
 namespace {
 
 class DeviceContract : public testing::TestWithParam<BenchKind> {
@@ -221,4 +221,4 @@ INSTANTIATE_TEST_SUITE_P(Drivers, VendorLibraries,
                          [](const auto& of) { return of.param.kind; });
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_drivers

@@ -9,7 +9,7 @@
 #include "device/fakes/bench.h"
 #include "device/open_device.h"
 
-namespace hl::test {
+namespace hl::test::test_examine_device {
 namespace {
 
 const UsbDevice kFalcon{0x0403, 0xcb48, "Novint Falcon", true}, kMouse{0x046d, 0xc077, "Mouse", true};
@@ -102,4 +102,4 @@ TEST(ExamineDevice, EveryKindOfDeviceIsKnown) {
 TEST(ExamineDevice, WhatIsNoDeviceIsRefused) { EXPECT_THROW(examineSurroundings("theremin", {}), Error); }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_examine_device

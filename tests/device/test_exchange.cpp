@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hl {
+namespace hl::test_exchange {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
@@ -37,4 +37,4 @@ TEST(Exchange, WhatIsTooOldOrWasNeverToldIsNoPlace) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_exchange

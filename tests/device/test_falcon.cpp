@@ -14,7 +14,7 @@
 #include "device/falcon/falcon_kinematics.h"
 #include "temp_folder.h"
 
-namespace hl::test {
+namespace hl::test::test_falcon {
 namespace {
 
 Vec3 somewhere(std::mt19937& random) {
@@ -155,4 +155,4 @@ TEST_F(Falcon, IsNotReadyAndHoldsNoForceUntilAllLegsAreHomed) {
 }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_falcon

@@ -8,7 +8,7 @@
 #include "device/force_dimension/figures.h"
 #include "device/force_dimension/force_dimension_device.h"
 
-namespace hl::test {
+namespace hl::test::test_force_dimension {
 namespace {
 
 class ForceDimension : public testing::Test {
@@ -90,4 +90,4 @@ TEST_F(ForceDimension, HasTheFiguresOfItsType) {
 }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_force_dimension

@@ -10,7 +10,7 @@
 #include "device/open_device.h"
 #include "wait_for.h"
 
-namespace hl::test {
+namespace hl::test::test_haply {
 namespace {
 
 std::string failureOf(const std::string& spec) {
@@ -170,4 +170,4 @@ TEST(Haply, AServoThatFeedsNoForceHoldsNone) {
 }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_haply

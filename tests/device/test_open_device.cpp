@@ -10,7 +10,7 @@
 #include "device/named_device.h"
 #include "device/simulated_hand.h"
 
-namespace hl {
+namespace hl::test_open_device {
 namespace {
 
 std::string refusalOf(const std::string& spec) {
@@ -102,4 +102,4 @@ TEST(OpenDevice, EveryKindTellsOfItself) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_open_device

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
-namespace hl {
+namespace hl::test_phantom {
 namespace {
 
 const PhantomParameters kArm;
@@ -141,4 +141,4 @@ TEST(Phantom, StopsPushBackOnlyBeyondTheLimits) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_phantom

@@ -12,7 +12,7 @@
 #include "device/hand_script.h"
 #include "device/phantom_arm.h"
 
-namespace hl {
+namespace hl::test_simulated_device {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
@@ -379,4 +379,4 @@ TEST(PersonScript, DoesOneThingAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_simulated_device

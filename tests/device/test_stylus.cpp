@@ -10,7 +10,7 @@
 #include "device/simulated_device.h"
 #include "device/stylus_reader.h"
 
-namespace hl {
+namespace hl::test_stylus {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
@@ -152,4 +152,4 @@ TEST(HandScript, TurnsTheShortWayRoundBetweenSamples) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_stylus

@@ -9,7 +9,7 @@
 #include "device/fakes/fake_arm.h"
 #include "device/touch_hd/touch_hd_device.h"
 
-namespace hl::test {
+namespace hl::test::test_touch_hd {
 namespace {
 
 class TouchHd : public testing::Test {
@@ -95,4 +95,4 @@ TEST_F(TouchHd, AServoThatFeedsNoForceHoldsNone) {
 }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_touch_hd

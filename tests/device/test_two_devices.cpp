@@ -16,7 +16,7 @@
 #include "device/open_device.h"
 #include "wait_for.h"
 
-namespace hl::test {
+namespace hl::test::test_two_devices {
 namespace {
 
 const std::array<Vec3, 2> kGoals{Vec3(-0.02, 0.01, 0), Vec3(0.02, -0.01, 0.01)};
@@ -230,4 +230,4 @@ TEST(DeviceClaim, IsOnesUntilItIsReleased) {
 }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_two_devices

@@ -8,7 +8,7 @@
 
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_usb_bus {
 namespace {
 
 /// A folder like the kernel's, with what is put into it.
@@ -73,4 +73,4 @@ TEST(UsbBus, TheRuleNamesTheDevice) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_usb_bus

@@ -15,7 +15,7 @@ import subprocess
 import sys
 import threading
 
-DURATIONS_S = [4, 8, 16, 64]
+DURATIONS_S = [2, 8, 16, 64]
 
 
 class Server:

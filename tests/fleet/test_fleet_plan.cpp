@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_fleet_plan {
 namespace {
 
 SweepFile twoByTwo() {
@@ -93,4 +93,4 @@ TEST(FleetPlans, NeedTheirFiles) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_fleet_plan

@@ -9,7 +9,7 @@
 #include "base/fields.h"
 #include "io/load_scene.h"
 
-namespace hl {
+namespace hl::test_fleet_result {
 namespace {
 
 struct Felt {
@@ -116,4 +116,4 @@ TEST(FleetColumns, AreOneForEachNumber) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_fleet_result

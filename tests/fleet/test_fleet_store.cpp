@@ -6,9 +6,10 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "fleet/beside.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_fleet_store {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,6 +97,16 @@ TEST(FleetStores, RemoveWhatKilledProgramsLeft) {
   EXPECT_TRUE(store.find(kName));
 }
 
+TEST(FleetStores, RemovesWhatKilledProgramsLeftOfATable) {
+  const std::string path = test::tempFile("table.npz"), left = nameBeside(path),
+                    other = test::tempFile("table.npz.bak");
+  std::ofstream(left) << "half";
+  std::ofstream(other) << "mine";
+  removeBeside(path);
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(other));
+}
+
 TEST(FleetStores, AFolderInThePlaceOfAResultIsNamed) {
   const fs::path folder = test::tempFile("occupied"), place = folder / "aa" / (kName + ".result");
   fs::create_directories(place);
@@ -115,4 +126,4 @@ TEST(FleetStores, TellWhereTheyCannotWrite) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_fleet_store

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hl {
+namespace hl::test_fleet_texts {
 namespace {
 
 TEST(FleetTexts, TellCountRateAndTimeLeft) {
@@ -21,4 +21,4 @@ TEST(FleetTexts, AreOneLineOfUtf8) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_fleet_texts

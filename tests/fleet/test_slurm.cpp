@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_slurm {
 namespace {
 
 // `ending`: what it does after writing each of its words to a line of the file "calls".
@@ -74,4 +74,4 @@ TEST(SlurmSweeps, SayWhereThereIsNoSlurm) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_slurm

@@ -7,7 +7,7 @@
 #include "fleet/nearest_name.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_sweep_file {
 namespace {
 
 // As of a trace with three options: radius above 0; grip light or firm, which needs tremor.
@@ -156,4 +156,4 @@ TEST(NearestName, IsTheOneWithTheFewestChanges) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_sweep_file

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_worker_pool {
 namespace {
 
 struct Outcome {
@@ -87,4 +87,4 @@ TEST(Workers, ThatCannotBeStartedAreAnError) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_worker_pool

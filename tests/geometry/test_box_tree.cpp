@@ -8,7 +8,7 @@
 #include "base/realtime_guard.h"
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_box_tree {
 namespace {
 
 std::vector<Box> randomBoxes(test::Random& random, int count) {
@@ -86,4 +86,4 @@ TEST(BoxTree, AskingAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_box_tree

@@ -8,7 +8,7 @@
 #include "geometry/judge.h"
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_closest_point {
 namespace {
 
 Vec3 weightedPoint(const Primitive& primitive, const std::array<double, 3>& weights) {
@@ -133,4 +133,4 @@ TEST(ClosestPoint, AtDistanceZeroTheNormalIsStillAUnitVector) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_closest_point

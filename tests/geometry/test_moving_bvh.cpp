@@ -10,7 +10,7 @@
 #include "geometry/queries.h"
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_moving_bvh {
 namespace {
 
 using test::Random;
@@ -123,4 +123,4 @@ TEST(MovingBvh, TheFirstImpactIsThatOfEveryPrimitive) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_moving_bvh

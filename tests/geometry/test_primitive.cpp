@@ -8,7 +8,7 @@
 
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_primitive {
 namespace {
 
 TEST(Primitive, VerticesAreSortedAndOrderMapsBack) {
@@ -77,4 +77,4 @@ TEST(Primitive, SegmentsAndPointsRepeatTheirLastVertex) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_primitive

@@ -9,7 +9,7 @@
 
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_primitives {
 namespace {
 
 using test::Mesh;
@@ -124,4 +124,4 @@ TEST(Primitives, ReadyOnesAreThemselves) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_primitives

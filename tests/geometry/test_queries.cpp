@@ -16,7 +16,7 @@
 #include "geometry/sphere_tree.h"
 #include "geometry/wide_bvh.h"
 
-namespace hl {
+namespace hl::test_queries {
 namespace {
 
 struct Query {
@@ -233,4 +233,4 @@ TEST(Queries, NothingIsAllocated) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_queries

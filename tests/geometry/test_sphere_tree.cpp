@@ -10,7 +10,7 @@
 #include "geometry/queries.h"
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_sphere_tree {
 namespace {
 
 using Sphere = SphereTree::Sphere;
@@ -188,4 +188,4 @@ TEST(SphereTree, EmptyAndSingleScenesWork) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_sphere_tree

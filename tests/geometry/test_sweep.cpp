@@ -11,7 +11,7 @@
 #include "geometry/judge.h"
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_sweep {
 namespace {
 
 struct Case {
@@ -215,4 +215,4 @@ TEST(SweepSphere, C07TheNormalTurnsContinuouslyFromFaceOverEdge) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_sweep

@@ -22,7 +22,7 @@
 #include "geometry/queries.h"
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_wide_bvh {
 namespace {
 
 using Numbers = std::vector<std::uint32_t>;
@@ -504,4 +504,4 @@ TEST(WideBvh, QueriesAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_wide_bvh

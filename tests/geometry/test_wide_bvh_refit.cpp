@@ -14,7 +14,7 @@
 #include "geometry/scenes.h"
 #include "geometry/wide_bvh.h"
 
-namespace hl {
+namespace hl::test_wide_bvh_refit {
 namespace {
 
 using test::Mesh;
@@ -213,4 +213,4 @@ TEST(WideBvhRefit, ARowOfPointsCanBeJudgedToo) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_wide_bvh_refit

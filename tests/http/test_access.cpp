@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hl {
+namespace hl::test_access {
 namespace {
 
 constexpr const char* kToken = "correct-horse-battery";
@@ -104,4 +104,4 @@ TEST(Access, ATokenIsLongEnoughAndFitsIntoAnAddress) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_access

@@ -20,7 +20,7 @@
 #include "temp_folder.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_failing_threads {
 namespace {
 
 using test::PlainClient;
@@ -229,4 +229,4 @@ TEST(ThrowingDriver, InReadIsALostDeviceAndZeroForce) { expectZeroForce(&Throwin
 TEST(ThrowingDriver, InWriteTheServoGoesOn) { expectZeroForce(&ThrowingDevice::throw_in_write); }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_failing_threads

@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 
-namespace hl {
+namespace hl::test_http_server {
 namespace {
 
 namespace asio = boost::asio;
@@ -166,4 +166,4 @@ TEST_F(HttpServerTest, APortInUseIsAClearError) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_http_server

@@ -17,7 +17,7 @@
 #include "plain_client.h"
 #include "scene/snapshot.h"
 
-namespace hl {
+namespace hl::test_monitor {
 namespace {
 
 // Every line of `text` is a comment of a family or a sample of the family before.
@@ -66,6 +66,7 @@ TEST(RosMetrics, HaveEveryCount) {
   counts.received = {3, 4};
   counts.verdicts = {99, 5, 6, 7, 8};
   counts.ends = 9;
+  counts.starts = 10;
   MetricsText out;
   writeRosMetrics(out, counts);
   expectPrometheus(out.text());
@@ -74,12 +75,13 @@ TEST(RosMetrics, HaveEveryCount) {
         "hl_ros_commands_total{topic=\"servo_cf\"} 3", "hl_ros_commands_total{topic=\"servo_cp\"} 4",
         "hl_ros_refused_total{reason=\"malformed\"} 5", "hl_ros_refused_total{reason=\"not_a_number\"} 6",
         "hl_ros_refused_total{reason=\"other_frame\"} 7", "hl_ros_refused_total{reason=\"stale\"} 8",
-        "hl_ros_ends_total 9"})
+        "hl_ros_ends_total 9", "hl_ros_starts_total 10"})
     EXPECT_NE(out.text().find(std::string("\n") + line + "\n"), std::string::npos) << line;
 }
 
 TEST(ShareMetrics, TellOfTheWorldAndItsServers) {
   ShareView view{"lab", "anna", {}};
+  view.starts = 3;
   view.counts.items = 12;
   view.counts.own_items = 5;
   view.counts.adopted = 2;
@@ -90,7 +92,7 @@ TEST(ShareMetrics, TellOfTheWorldAndItsServers) {
   expectPrometheus(out.text());
   for (const char* line :
        {"hl_share_running 1", "hl_share_servers 1", "hl_share_objects 12", "hl_share_own_objects 5",
-        "hl_share_adopted_total 2", "hl_share_pushes_total{what=\"sent\"} 7",
+        "hl_share_starts_total 3", "hl_share_adopted_total 2", "hl_share_pushes_total{what=\"sent\"} 7",
         "hl_share_round_trip_seconds{server=\"bert\"} 0.1005", "hl_share_playout_seconds{server=\"bert\"} 0.075"})
     EXPECT_NE(out.text().find(std::string(line) + "\n"), std::string::npos) << line;
   view.ended = "hl-share has ended";
@@ -119,7 +121,7 @@ TEST(ShareMetrics, HealthSaysWhenSharingHasEnded) {
   const MonitorCallbacks monitor = withShareMetrics(own, [&view] { return view; });
   EXPECT_EQ(monitor.fault(), "");
   view.ended = "hl-share has ended";
-  EXPECT_EQ(monitor.fault(), "the world 'lab' is shared no more: hl-share has ended");
+  EXPECT_EQ(monitor.fault(), "the world 'lab' is not shared: hl-share has ended");
   // What keeps the hand from its force is said first.
   own_fault = "the servo loop stands still";
   EXPECT_EQ(monitor.fault(), "the servo loop stands still");
@@ -230,4 +232,4 @@ TEST(EventLog, OneLineInEitherForm) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_monitor

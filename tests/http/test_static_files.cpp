@@ -7,7 +7,7 @@
 
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_static_files {
 namespace {
 
 TEST(StaticFiles, ServesTheFolderAndNothingElse) {
@@ -27,4 +27,4 @@ TEST(StaticFiles, ServesTheFolderAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_static_files

@@ -15,7 +15,7 @@
 #include "plain_client.h"
 #include "test_certificate.h"
 
-namespace hl {
+namespace hl::test_tls {
 namespace {
 
 using namespace test;
@@ -218,4 +218,4 @@ TEST(Tls, ASilentHandshakeHoldsNobodyUp) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_tls

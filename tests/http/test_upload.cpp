@@ -22,7 +22,7 @@
 #include "plain_client.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_upload {
 namespace {
 
 namespace fs = std::filesystem;
@@ -283,4 +283,4 @@ TEST(UploadName, IsTheLastPartAndNamesNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_upload

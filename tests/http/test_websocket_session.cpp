@@ -15,7 +15,7 @@
 #include "http/http_server.h"
 #include "plain_client.h"
 
-namespace hl {
+namespace hl::test_websocket_session {
 namespace {
 
 using test::FakeHost;
@@ -449,4 +449,4 @@ TEST(WebSocketSession, AThousandClientsLeaveNothingBehind) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_websocket_session

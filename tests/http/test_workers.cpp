@@ -9,7 +9,7 @@
 #include <future>
 #include <stdexcept>
 
-namespace hl {
+namespace hl::test_workers {
 namespace {
 
 namespace asio = boost::asio;
@@ -73,4 +73,4 @@ TEST(Workers, WhatFailsBesideTheirWorkLeavesNothingBehind) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_workers

@@ -17,7 +17,7 @@
 #include "io/sandbox.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_alone {
 namespace {
 
 using test::fileWith;
@@ -148,4 +148,4 @@ TEST(Sent, AReaderThatGivesNothingIsALine) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_alone

@@ -8,7 +8,7 @@
 #include "io/load_scene.h"
 #include "scene/snapshot.h"
 
-namespace hl {
+namespace hl::test_builtin {
 namespace {
 
 void expectSound(const Model& model) {
@@ -106,4 +106,4 @@ TEST(Builtin, BadNamesAreRefusedWithTheList) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_builtin

@@ -12,7 +12,7 @@
 #include "io/trace_csv.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_csv {
 namespace {
 
 std::string refusalOf(const std::string& content) {
@@ -173,4 +173,4 @@ TEST(OutputFile, LeavesWhatIsReadAsItIs) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_csv

@@ -10,7 +10,7 @@
 #include "io/load_model.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_gltf_haptics {
 namespace {
 
 using test::fileWith;
@@ -83,6 +83,18 @@ TEST(GltfHaptics, MpegTexturesAreReadWithTheirRange) {
   EXPECT_NE(model.warnings[0].find("temperature"), std::string::npos);
 }
 
+TEST(GltfHaptics, AnImageOfAnotherFolderIsLeftOut) {
+  const std::string mesh = R"(,"extensions":{"MPEG_haptic_material":{"hapticMaterialIndex":0}})";
+  for (const std::string name : {"../stiff.png", "/etc/passwd"}) {
+    const std::string root = R"(,"images":[{"uri":")" + name + R"("}],"textures":[{"source":0}],
+      "extensions":{"MPEG_haptic_material":{"materials":[{"stiffness":[{"texture":{"index":0}}]}]}})";
+    const Model model = loadModel(fileWith("led.gltf", gltf("", R"(,"name":"cloth")", mesh, root)));
+    ASSERT_EQ(model.warnings.size(), 1u);
+    EXPECT_EQ(model.warnings[0], "a haptic texture was left out: names '" + name +
+                                     "', which is not in its folder: put that file beside it");
+  }
+}
+
 TEST(GltfHaptics, StrangeValuesOnlyWarn) {
   for (const char* root : {R"(,"extensions":{"KHR_physics_rigid_bodies":7})",
                            R"(,"extensions":{"KHR_physics_rigid_bodies":{"physicsMaterials":"x"}})",
@@ -94,4 +106,4 @@ TEST(GltfHaptics, StrangeValuesOnlyWarn) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_gltf_haptics

@@ -24,7 +24,7 @@
 #include "io/sandbox.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_isolated {
 namespace {
 
 namespace fs = std::filesystem;
@@ -252,8 +252,8 @@ TEST(Isolated, OfBodiesThatStayThereMayBeMoreThanCanMove) {
     scene.bodies.insert(scene.bodies.end(), many_moving, moves);
     return runIsolated("it", {}, [&](const Report&) { return scene; }, {}).bodies.size();
   };
-  EXPECT_EQ(back(kMostBodies + 1, kMostBodies), 2 * kMostBodies + 1);
-  EXPECT_THROW(back(0, kMostBodies + 1), Error);
+  EXPECT_EQ(back(kMaxBodies + 1, kMaxBodies), 2 * kMaxBodies + 1);
+  EXPECT_THROW(back(0, kMaxBodies + 1), Error);
 }
 
 Model twoTriangles() {
@@ -295,7 +295,7 @@ TEST(Isolated, SnapsThatCannotBeAreRefused) {
   EXPECT_NE(changed([](SnapList& snaps) { snaps[0].release_N = 0; }), "");
   EXPECT_NE(changed([](SnapList& snaps) { snaps[1].normal = Vec3(2, 0, 0); }), "");
   EXPECT_NE(changed([](SnapList& snaps) { snaps[1].points.emplace_back(0, 0, 0); }), "");
-  EXPECT_NE(changed([](SnapList& snaps) { snaps.resize(kMostSnaps, snaps[0]); }), "");
+  EXPECT_NE(changed([](SnapList& snaps) { snaps.resize(kMaxSnaps, snaps[0]); }), "");
 }
 
 TEST(Isolated, FieldsThatCannotBeAreRefused) {
@@ -316,7 +316,7 @@ TEST(Isolated, FieldsThatCannotBeAreRefused) {
   EXPECT_NE(changed([](FieldList& fields) { fields[0].reach_m = std::nan(""); }), "");
   EXPECT_NE(changed([](FieldList& fields) { fields[0].force_N = -1; }), "");
   EXPECT_NE(changed([](FieldList& fields) { fields[0].direction.setZero(); }), "");
-  EXPECT_NE(changed([](FieldList& fields) { fields.resize(kMostFields, fields[0]); }), "");
+  EXPECT_NE(changed([](FieldList& fields) { fields.resize(kMaxFields, fields[0]); }), "");
 }
 
 TEST(Isolated, BodiesThatCannotBeAreRefused) {
@@ -364,6 +364,14 @@ TEST(Isolated, MemoryIsBounded) {
     return points(all.size() % 2);
   };
   EXPECT_NE(refusalOf(hungry).find("more memory"), std::string::npos);
+}
+
+TEST(LoadModel, AFaceOfBillionsOfCornersNeedsTooMuchMemory) {
+  const std::string path = fileWith(
+      "face.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uint int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n");
+  EXPECT_NE(refusalOf([&] { loadModel(path); }).find("more memory"), std::string::npos);
 }
 #endif
 
@@ -418,6 +426,18 @@ TEST(Isolated, TheReaderCanOnlyRead) {
   });
   close(secret);
   EXPECT_EQ(refusal, "it: done:");
+}
+
+// As a series of DICOM needs it. An iterator tells what goes wrong by throwing.
+TEST(Isolated, TheReaderListsFolders) {
+  const std::string file = fileWith("listed", "something");
+  const auto list = [&](const Report&) -> Model {
+    std::string found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(file).parent_path()))
+      if (entry.path() == file) found = "listed";
+    throw Error(found);
+  };
+  EXPECT_EQ(refusalOf(list), "it: listed");
 }
 
 TEST(Sandbox, LandlockAloneKeepsFilesFromBeingWritten) {
@@ -517,4 +537,4 @@ TEST(ReadingCache, KeepsNoMoreThanItMayAndNothingWithoutAFolder) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_isolated

@@ -19,7 +19,7 @@
 #include "scene/snapshot.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_load_model {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,6 +154,41 @@ TEST(LoadModel, GltfNodesAreTransformed) {
   EXPECT_LT((model.positions[model.triangles[0][1]] - Vec3(10, 1, 0)).norm(), 1e-5);
 }
 
+// A triangle whose corners are in a file of the given name.
+std::string gltfWith(const std::string& buffer) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")" +
+         buffer + R"("}]})";
+}
+
+TEST(LoadModel, AFileNamesOthersInItsOwnFolderOnly) {
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
+  const fs::path own = test::tempFolder() / "own";
+  fs::create_directories(own / "beneath");
+  fileWith("far.bin", bytes);
+  fileWith("own/near.bin", bytes);
+  fileWith("own/beneath/near.bin", bytes);
+  fs::create_symlink(test::tempFolder() / "far.bin", own / "link.bin");
+  for (const char* name : {"near.bin", "beneath/near.bin"})
+    EXPECT_EQ(loadModel(fileWith("own/a.gltf", gltfWith(name))).triangles.size(), 1u) << name;
+  for (const char* name : {"../far.bin", "link.bin"})
+    EXPECT_NE(refusalOf(fileWith("own/a.gltf", gltfWith(name))).find("which is not in its folder"), std::string::npos)
+        << name;
+  EXPECT_NE(refusalOf(fileWith("own/a.gltf", gltfWith(test::tempFile("far.bin")))), "") << "an absolute name";
+}
+
+TEST(LoadModel, AMaterialElsewhereIsLeftOut) {
+  fs::create_directories(test::tempFolder() / "own");
+  fileWith("far.mtl", "newmtl red\nKd 1 0 0\n");
+  const Model model = loadModel(fileWith("own/m.obj", std::string("mtllib ../far.mtl\n") + kObj));
+  EXPECT_EQ(model.triangles.size(), 2u);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_EQ(model.warnings[0], "names 'far.mtl', which is not in its folder and is left out");
+}
+
 TEST(LoadModel, X3d) {
   const char x3d[] =
       "<?xml version='1.0'?><X3D version='3.0' profile='Immersive'><Scene><Transform translation='0 0 5'><Shape>"
@@ -281,4 +316,4 @@ TEST(LoadModel, EveryTestModelLoadsOrIsRefused) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_load_model

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_npz_file {
 namespace {
 
 // What a program in Python prints; `f` is the opened file.
@@ -69,4 +69,4 @@ TEST(NpzFiles, TellWhereTheyCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_npz_file

@@ -17,7 +17,7 @@
 #include "surfaces/point_cloud.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_read_clouds {
 namespace {
 
 using test::fileWith;
@@ -380,9 +380,14 @@ TEST(ReadClouds, ItsColoursComeAlong) {
   const SceneModel scene = loadModelScene(path);
   const auto& cloud = dynamic_cast<const PointCloud&>(*scene.surfaces.at(0).source);
   ASSERT_TRUE(cloud.hasColours());
-  for (std::size_t slot = 0; slot < 3; ++slot)
-    EXPECT_EQ(cloud.points()->colour(slot),
-              kColours[static_cast<std::size_t>(std::lround(cloud.corners(slot)[0].x()))]);
+  const CloudPoints& points = *cloud.points();
+  ASSERT_EQ(points.size(), 3U);
+  for (std::size_t block = 0; block < points.blocks(); ++block) {
+    for (std::size_t i = 0; i < points.countIn(block); ++i) {
+      const std::size_t slot = CloudPoints::kPerBlock * block + i;
+      EXPECT_EQ(points.colour(slot), kColours[static_cast<std::size_t>(std::lround(cloud.corners(slot)[0].x()))]);
+    }
+  }
 }
 
 TEST(ReadClouds, WhatCannotBeReadSaysWhatToDo) {
@@ -404,4 +409,4 @@ TEST(ReadClouds, ARealPlyOfPoints) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_read_clouds

@@ -12,7 +12,7 @@
 #include "surfaces/iso_surface.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_read_dicom {
 namespace {
 
 using test::dicomFile;
@@ -194,11 +194,11 @@ TEST(ReadDicom, BallsUnderATiltedGantryAreRound) {
   Box box;
   for (const auto& p : mesh.positions) box.extend(Vec3(p.cast<double>()));
   // Linear between samples at most 1 mm apart: off by 1 / (8 R) mm, and by the rounding of samples.
-  constexpr double kMost_m = 1e-3 * (1 / (8 * (kRadius_mm - 1)) + kScale);
+  constexpr double kMax_m = 1e-3 * (1 / (8 * (kRadius_mm - 1)) + kScale);
   EXPECT_NEAR(box.size().maxCoeff(), 2e-3 * kRadius_mm, 2e-4);
   EXPECT_NEAR(box.size().minCoeff(), 2e-3 * kRadius_mm, 2e-4);
   for (const auto& p : mesh.positions)
-    ASSERT_NEAR((Vec3(p.cast<double>()) - box.centre()).norm(), 1e-3 * kRadius_mm, kMost_m + 1e-4);
+    ASSERT_NEAR((Vec3(p.cast<double>()) - box.centre()).norm(), 1e-3 * kRadius_mm, kMax_m + 1e-4);
 }
 
 TEST(ReadDicom, LowNumbersThatAreBright) {
@@ -366,4 +366,4 @@ TEST(ReadDicom, RealFiles) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_read_dicom

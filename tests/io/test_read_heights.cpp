@@ -16,7 +16,7 @@
 #include "surfaces/height_field.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_read_heights {
 namespace {
 
 using test::fileWith;
@@ -236,6 +236,8 @@ TEST(ReadHeights, EsriGrids) {
   EXPECT_NE(refusalOf(fileWith("c.asc", "ncols 6\nnrows 4\ncellsize 1\n1 2 x 4")).find("'x' is no number"),
             std::string::npos);
   EXPECT_NE(refusalOf(fileWith("d.asc", "ncols 6\nnrows 4\n1 2 3 4")).find("cellsize"), std::string::npos);
+  EXPECT_NE(refusalOf(fileWith("f.asc", "ncols 1e9\nnrows 1e9\ncellsize 1\n1 2 3")).find("ends before its last sample"),
+            std::string::npos);
   EXPECT_NE(refusalOf(fileWith("e.asc", "ncols 6e9\nnrows 4\ncellsize 1\n1 2 3 4")).find("ncols"), std::string::npos);
 }
 
@@ -356,4 +358,4 @@ TEST(ReadHeights, AFieldBeyondMemoryIsRefused) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_read_heights

@@ -4,12 +4,14 @@
 #include <Eigen/Geometry>
 #include <bit>
 #include <filesystem>
+#include <limits>
 #include <random>
 
+#include "io/load_model.h"
 #include "io/volume_taker.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_read_nifti {
 namespace {
 
 using test::fileWith;
@@ -210,8 +212,43 @@ TEST(ReadNifti, SlopeAndOffset) {
     EXPECT_EQ(taken(file.with<std::int16_t>()).value(1, 2, 1), -1024 + 0.5 * testSample(1, 2, 1));
     file.scale(0, 7);
     EXPECT_EQ(taken(file.with<std::int16_t>()).value(1, 2, 1), testSample(1, 2, 1));
-    file.scale(std::nan(""), 0);
-    EXPECT_EQ(taken(file.with<std::int16_t>()).value(1, 2, 1), testSample(1, 2, 1));
+    for (const double none : {0.0, std::nan("")}) {
+      file.scale(none, std::nan(""));
+      EXPECT_EQ(taken(file.with<std::int16_t>()).value(1, 2, 1), testSample(1, 2, 1));
+    }
+  }
+}
+
+TEST(ReadNifti, AScaleThatIsNoNumberIsRefused) {
+  const double none = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  for (const bool wide : {false, true}) {
+    NiftiFile file(wide);
+    for (const auto& [slope, offset] : {std::pair{infinite, 0.0}, {-infinite, none}, {1.0, none}}) {
+      file.scale(slope, offset);
+      EXPECT_EQ(refusal(file.with<std::int16_t>()).find("has values that are no numbers: scl_slope is "), 0U);
+    }
+  }
+}
+
+// What the file says of its values comes with the samples, and is looked at when they are there.
+TEST(ReadNifti, AFileWithoutValuesSaysWhy) {
+  const auto said = [](const std::string& bytes) {
+    try {
+      loadModelScene(fileWith("said.nii", bytes));
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(std::string(error.what()).find("said.nii: ") + 10);
+    }
+    return std::string();
+  };
+  NiftiFile file;
+  file.scale(1e38, 0);
+  EXPECT_EQ(said(file.with<std::int16_t>()),
+            "its scale (the slope of a NIfTI file) of 1e+38 and offset of 0 take values beyond 3.4e38");
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    NiftiFile real;
+    real.type(16);
+    for (int i = 0; i < 60; ++i) real.bytes += test::bytesOf(value, false);
+    EXPECT_EQ(said(real.bytes), "no voxel of it has a finite value");
   }
 }
 
@@ -279,6 +316,32 @@ TEST(ReadNifti, BadGzipGivesOneLine) {
             "ends before its last sample");
 }
 
+// Takes what comes before samples are read: what a file cannot have is refused before anybody makes room for it.
+TEST(ReadNifti, MoreThanGzipCanHoldIsRefusedUnread) {
+  constexpr std::size_t kZeros = 3'000'000;
+  const auto refused = [](const NiftiFile& file) {
+    VolumeTaker taker;
+    const std::string path = fileWith("a.nii.gz", packed(file.bytes + std::string(kZeros, '\0')));
+    std::string why;
+    try {
+      readVolume({path, ".nii.gz", false}, taker);
+    } catch (const Error& error) {
+      why = error.what();
+    }
+    EXPECT_TRUE(taker.bytes().empty());
+    return why;
+  };
+  NiftiFile claim;
+  claim.dims({3, 2000, 2000, 2000, 1, 1, 1, 1});
+  EXPECT_EQ(refused(claim), "ends before its last sample");
+  NiftiFile far;
+  far.put(108, 1e14F);
+  EXPECT_EQ(refused(far), "ends before its last sample");
+  NiftiFile dense;
+  dense.dims({3, 100, 100, 150, 1, 1, 1, 1});
+  EXPECT_TRUE(volumeIn(fileWith("a.nii.gz", packed(dense.bytes + std::string(kZeros, '\0')))).whole());
+}
+
 TEST(ReadNifti, AnyDamageIsTakenOrRefusedInOneLine) {
   std::mt19937 random(2);
   for (int i = 0; i < 1000; ++i) {
@@ -311,4 +374,4 @@ TEST(ReadNifti, RealHead) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_read_nifti

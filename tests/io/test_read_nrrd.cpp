@@ -1,12 +1,14 @@
 // NRRD files: types, encodings and spaces come out as the format says, and what is broken gives one line.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "io/volume_taker.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_read_nrrd {
 namespace {
 
 using test::fileWith;
@@ -135,14 +137,56 @@ TEST(ReadNrrd, SamplesInAnotherFile) {
   const auto refused = [&](const std::string& rest) {
     return test::volumeRefusalOf(fileWith("d.nhdr", header + rest));
   };
-  EXPECT_EQ(refused("encoding: raw\ndata file: none.raw\n"),
-            "has its samples in 'none.raw', and there is no such file");
+  EXPECT_EQ(refused("encoding: raw\ndata file: none.raw\n"), "names 'none.raw', and there is no such file");
   EXPECT_EQ(refused("encoding: raw\ndata file: a%02d.raw 1 3 1\n"),
             "has its samples in several files: save all as one .nrrd");
   EXPECT_EQ(refused("encoding: raw\nline skip: 1e18\ndata file: a.raw\n"), "ends before its last sample");
   EXPECT_EQ(refused("encoding: raw\nbyte skip: 1e9\ndata file: a.raw\n"), "ends before its last sample");
   EXPECT_EQ(refused("encoding: gzip\nbyte skip: -1\ndata file: a.raw.gz\n"),
-            "is not a sound NRRD file: its byte skip is -1");
+            "is not a sound NRRD file: its byte skip is -1, which is for raw samples only");
+  EXPECT_EQ(refused("encoding: raw\nbyte skip: -2\ndata file: a.raw\n"),
+            "is not a sound NRRD file: its byte skip is -2");
+  EXPECT_EQ(refused("encoding: raw\nbyte skip: 0.5\ndata file: a.raw\n"),
+            "is not a sound NRRD file: its byte skip is 0.5");
+  EXPECT_EQ(refused("encoding: raw\nline skip: -1\ndata file: a.raw\n"),
+            "is not a sound NRRD file: its line skip is -1");
+}
+
+TEST(ReadNrrd, SamplesAtTheEndOfTheirFile) {
+  const std::string samples = test::testSamples<std::int16_t>(kSide, kLittle);
+  const std::string header = headerWith("short", "endian: little\nencoding: raw\nbyte skip: -1\n\n");
+  expectSamples(taken(header + samples));
+  expectSamples(taken(header + "what comes before them" + samples));
+  EXPECT_EQ(refusal(header + samples.substr(1)), "ends before its last sample") << "a header is no sample";
+  for (const std::string encoding : {"gzip", "ascii"})
+    EXPECT_EQ(refusal(headerWith("short", "endian: little\nencoding: " + encoding + "\nbyte skip: -1\n\n")),
+              "is not a sound NRRD file: its byte skip is -1, which is for raw samples only");
+}
+
+TEST(ReadNrrd, SamplesAreInTheFolderOfTheirHeader) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(test::tempFile("headers"));
+  fs::create_directories(folder / "beneath");
+  const auto put = [](const fs::path& file, const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file.string();
+  };
+  const std::string samples = test::testSamples<std::int16_t>(kSide, kLittle);
+  const std::string outside = put(fs::path(test::tempFile("outside.raw")), samples);
+  put(folder / "a.raw", samples);
+  put(folder / "beneath" / "a.raw", samples);
+  const auto headerOf = [&](const std::string& name) {
+    return put(folder / "a.nhdr", headerWith("short", "endian: little\nencoding: raw\ndata file: " + name + "\n"));
+  };
+  std::error_code there_already;
+  fs::create_symlink("a.raw", folder / "inner.raw", there_already);
+  fs::create_symlink(outside, folder / "outer.raw", there_already);
+  for (const char* name : {"a.raw", "./a.raw", "beneath/a.raw", "inner.raw"}) expectSamples(volumeIn(headerOf(name)));
+  for (const std::string& name : {outside, (folder / "a.raw").string(), std::string("../outside.raw"),
+                                  std::string("beneath/../a.raw"), std::string("outer.raw")})
+    EXPECT_EQ(test::volumeRefusalOf(headerOf(name)),
+              "names '" + name + "', which is not in its folder: put that file beside it");
+  EXPECT_EQ(test::volumeRefusalOf(headerOf("beneath")), "names 'beneath', and there is no such file");
 }
 
 TEST(ReadNrrd, WhatIsBrokenGivesOneLine) {
@@ -189,4 +233,4 @@ TEST(ReadNrrd, AnyDamageIsTakenOrRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_read_nrrd

@@ -20,7 +20,7 @@
 #include "surfaces/iso_surface.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_scene_file {
 namespace {
 
 using test::fileWith;
@@ -185,6 +185,16 @@ TEST(SceneFile, HeightsOfAFileTakeAnotherSpacing) {
   EXPECT_LT((scene.surfaces.at(0).source->bounds().size() - Vec3(4, 15, 2)).norm(), 1e-12);
 }
 
+// A profilometer says its spacing in metres and its heights in micrometres: only the scene says so.
+TEST(SceneFile, HeightsThatAFileHasTooSteepAreThoseThatTheSceneSays) {
+  fileWith("steep.asc", "ncols 2\nnrows 2\ncellsize 1e-3\n0 1 2 60000");
+  const auto load = [](const std::string& scale) {
+    return loadSceneFile(fileWith("scene.hl.json", R"({"objects":[{"heights": {"file": "steep.asc")" + scale + "}}]}"));
+  };
+  EXPECT_NO_THROW(makeSnapshot(load(R"(, "verticalScale": 1e-6)")));
+  EXPECT_THROW(makeSnapshot(load("")), Error);
+}
+
 TEST(SceneFile, TheExampleOfCloudsLoads) {
   const SceneModel scene = loadSceneFile(std::string(HL_EXAMPLES) + "/clouds.hl.json");
   ASSERT_EQ(scene.surfaces.size(), 3U);
@@ -258,7 +268,7 @@ TEST(SceneFile, ImplicitSurfacesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refusal(""), "2: it needs an expression");
   EXPECT_NE(refusal(R"("expression": {})").find("an expression needs a sphere, box"), std::string::npos);
   EXPECT_EQ(refusal(R"("expression": {"union": {"of": [{"sphere": {"radius": 0}}]}})"),
-            "2: union.of.sphere.radius must be from 1e-9 to 1e6 m");
+            "2: union.of.sphere.radius must be from 1e-9 to 1e6");
   EXPECT_EQ(refusal(R"("expression": {"halfSpace": {"normal": {"y": 1}}})"),
             "2: it has no end, as a half-space or a gyroid has none: give bounds");
   EXPECT_NE(refusal(R"("expression": {"ball": {}})").find("ball"), std::string::npos);
@@ -348,6 +358,14 @@ TEST(SceneFile, VolumesThatMakeNoSenseAreRefused) {
   fileWith("field.asc", "ncols 2\nnrows 2\ncellsize 5\n1 2 3 4");
   EXPECT_EQ(refusal(good), "");
   EXPECT_EQ(refusal(good + R"(, "iso": 2)"), "2: there is no surface at iso 2: its values are from 0 to 1");
+  EXPECT_EQ(refusal(good + R"(, "iso": 0)"),
+            "2: there is no surface at iso 0: its values are from 0 to 1, and no two neighbours have it between them");
+  EXPECT_EQ(refusal(good + R"(, "iso": 0, "below": true)"), "");
+  EXPECT_EQ(refusal(R"("size": [2, 2, 2], "values": [1, 1, 1, 1, 1, 1, 1, 1])"), "") << "it comes with a warning";
+  EXPECT_EQ(refusal(R"("size": [2, 2, 2], "values": [7, 7, 7, 7, 7, 7, 7, 7], "missing": 7)"),
+            "2: no voxel of it has a finite value but 7, which stands for a missing one");
+  EXPECT_EQ(refusal(good + R"(, "scale": 1e300)"),
+            "2: its scale (the slope of a NIfTI file) of 1e+300 and offset of 0 take values beyond 3.4e38");
   EXPECT_EQ(refusal(R"("size": [2, 2, 3], "values": [0, 1])"), "2: it has fewer samples than it says");
   EXPECT_EQ(refusal(good, R"(, "body": {})"), "2: objects[0].body: only what is made of triangles can be a body");
   EXPECT_NE(refusal(R"("file": "none.nii")").find("there is no such file"), std::string::npos);
@@ -403,9 +421,9 @@ std::string manyBodies(std::size_t fixed, std::size_t moving) {
 }
 
 TEST(SceneFile, OnlyBodiesThatMoveCount) {
-  EXPECT_EQ(worldOfJson(manyBodies(kMostBodies + 1, 3)).bodies.size(), kMostBodies + 4);
-  EXPECT_EQ(worldOfJson(manyBodies(1, kMostBodies)).bodies.size(), kMostBodies + 1);
-  EXPECT_NE(refusalOf(manyBodies(2, kMostBodies + 1)).find("1001 bodies can move, and at most 1000 may"),
+  EXPECT_EQ(worldOfJson(manyBodies(kMaxBodies + 1, 3)).bodies.size(), kMaxBodies + 4);
+  EXPECT_EQ(worldOfJson(manyBodies(1, kMaxBodies)).bodies.size(), kMaxBodies + 1);
+  EXPECT_NE(refusalOf(manyBodies(2, kMaxBodies + 1)).find("1001 bodies can move, and at most 1000 may"),
             std::string::npos);
 }
 
@@ -454,7 +472,55 @@ TEST(SceneFile, BodiesThatCannotBeAreRefusedByLine) {
   expect("", R"({"bodyA": "a", "bodyB": "a"})", "joins a body to itself");
   expect("", R"({"bodyA": "a", "kind": "HINGE"})", "needs an axis");
   expect("", R"({"bodyA": "a", "low": 2, "high": 1})", "low must not be above high");
+  expect(R"("fixed": true, "velocityMS": {"x": 1})", "", "a fixed body has no velocityMS");
+  expect("", R"({"bodyA": "a", "axis": {"x": 1}})", "only a hinge or slider has an axis");
+  expect("", R"({"bodyA": "a", "kind": "FIXED", "anchorB": {"x": 1}})", "only a distance has an anchorB");
+  expect("", R"({"bodyA": "a", "kind": "DISTANCE", "high": 0})", "high of a distance must be greater than 0");
+  expect("", R"({"bodyA": "a", "kind": "DISTANCE", "low": -1})", "low of a distance must not be below 0");
+  expect("", R"({"bodyA": "a", "spring": 3})", "a ball or fixed joint has no coordinate");
+  expect("", R"({"bodyA": "a", "kind": "FIXED", "high": 1})", "a ball or fixed joint has no coordinate");
   expect("", R"({"bodyA": "a", "table": {"position": [0, 0], "force": [1, 1]}})", "must increase");
+}
+
+// The squares of a direction may leave the range of doubles though the direction does not.
+TEST(SceneFile, DirectionsMayHaveAnyFiniteLengthButZero) {
+  const auto triangle = [](const std::string& more) {
+    return R"({"name": "a", "primitives": {"vertices": [-1,-1,-1, 1,-1,-1, 1,1,-1, 0,0,1],
+      "triangles": [0,1,2, 0,1,3, 1,2,3, 2,0,3]})" +
+           more + "}";
+  };
+  const auto sceneWith = [&](const std::string& length) {
+    const std::string direction = R"({"x": )" + length + R"(, "z": )" + length + "}";
+    const std::string turned = R"("axis": )" + direction + R"(, "degrees": 50)";
+    return worldOfJson(R"({"objects": [)" +
+                       triangle(R"(, "transform": {)" + turned + R"(}, "body": {}, "fields": [{"kind": "CONSTANT",
+           "points": [0,0,0], "reach": 1, "forceN": 1, "direction": )" +
+                                direction + R"(}], "snaps": [{
+           "points": [0,0,0], "capture": 1, "releaseN": 1, "normal": )" +
+                                direction + "}]") +
+                       R"(, {"implicit": {"expression": {"box": {"size": {"x": 1, "y": 1, "z": 1}}, )" + turned +
+                       R"(}}},
+            {"implicit": {"expression": {"intersection": {"of": [{"sphere": {"radius": 1}},
+              {"halfSpace": {"normal": )" +
+                       direction + R"(}}]}}}}],
+            "joints": [{"kind": "HINGE", "bodyA": "a", "axis": )" +
+                       direction + "}]}");
+  };
+  const SceneModel plain = sceneWith("1");
+  const Vec3 unit = Vec3(1, 0, 1).normalized();
+  for (const char* length : {"5e-324", "1e-200", "1e-170", "1e-160", "1e-12", "1e7", "1e154", "1e160", "1.7e308"}) {
+    const SceneModel scene = sceneWith(length);
+    constexpr double kRounding = 1e-15;
+    const SceneBody &body = scene.bodies.at(0), &of_plain = plain.bodies.at(0);
+    EXPECT_LT((body.pose.rotation - of_plain.pose.rotation).cwiseAbs().maxCoeff(), kRounding) << length;
+    EXPECT_LT((body.fields.at(0).direction - unit).norm(), kRounding) << length;
+    EXPECT_LT((*body.snaps.at(0).normal - unit).norm(), kRounding) << length;
+    EXPECT_LT((scene.mechanics.joints.at(0).axis_W - unit).norm(), kRounding) << length;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Box box = scene.surfaces.at(i).source->bounds(), other = plain.surfaces.at(i).source->bounds();
+      EXPECT_LT((box.min - other.min).norm() + (box.max - other.max).norm(), 1e-9) << length << ", surface " << i;
+    }
+  }
 }
 
 std::string withSnaps(const std::string& snaps, const std::string& body = "") {
@@ -639,6 +705,10 @@ TEST(SceneFile, ErrorsNameTheLine) {
          "a?b");
   EXPECT_NE(afterFile(refusalOf("{}")).find("no objects"), std::string::npos);
   expect(std::string(100, '['), "1", "nested deeper");
+  for (const char* none : {"[]", " 3", "null", "\"{}\"", "[{\"objects\": []}]"})
+    EXPECT_EQ(afterFile(refusalOf(none)), R"(:1: a scene file must be one object: {"objects": [..]})") << none;
+  expect("\xef\xbb\xbf", "1", "not JSON");
+  expect("\xef\xbb\xbf\xef\xbb\xbf{}", "1", "not JSON");
 }
 
 // In the words of this file's users: those of the program that reads JSON are for programmers.
@@ -656,11 +726,30 @@ TEST(SceneFile, AValueOfAnotherKindIsToldWithWhatToWrite) {
             at + R"(body.velocityMS: 3 must be an object: {"x": .., "y": .., "z": ..})");
   EXPECT_EQ(told(R"("body": {"shape": "CONE"})"),
             at + R"(body.shape: "CONE" is none of HULL, BOX, BALL, CAPSULE, CYLINDER, PARTS)");
+  for (const char* word : {"yes", "true", "TRUE", "0", "no"})
+    EXPECT_EQ(told(R"("body": {"fixed": ")" + std::string(word) + "\"}"),
+              at + "body.fixed: it must be true or false, without quotation marks");
+  EXPECT_EQ(refusalOf(R"({"objects": [{"builtin": "sphere:100", "name": "yes", "body": {"fixed": true}}]})"),
+            "accepted");
+  EXPECT_EQ(told(R"("body": {})", R"(, "units": 0)"), ":1: units must be between 1e-09 and 1e+09");
   EXPECT_EQ(told(R"("material": {"stifness": 1})"), at + "material.stifness: there is no such name");
   EXPECT_EQ(told(R"("body": {})", R"(, "gravityMS2": -9.81)"),
             R"(:1: gravityMS2: -9.81 must be an object: {"x": .., "y": .., "z": ..})");
   EXPECT_EQ(told(R"("body": {})", R"(, "joints": [{"kind": "HINGE", "axis": {"y": 1}}])"),
             ":1: joints[0].bodyA must name a body");
+}
+
+TEST(SceneFile, ANameThatIsThereTwiceIsRefusedAndNamed) {
+  const auto told = [](const std::string& json) { return afterFile(refusalOf(json)); };
+  EXPECT_EQ(told("{\"objects\": [{\"builtin\": \"plane:2\",\n\"builtin\": \"plane:2\"}]}"),
+            ":2: the name \"builtin\" is there twice in one object");
+  EXPECT_EQ(told(R"({"units": 1, "units": 1, "objects": []})"), ":1: the name \"units\" is there twice in one object");
+  EXPECT_EQ(told(R"({"a\nb": 1, "a\nb": 1})").find('\n'), std::string::npos);
+  EXPECT_EQ(refusalOf(R"({"objects": [{"builtin": "plane:2"}, {"builtin": "plane:2"}], "units": 1})"), "accepted");
+}
+
+TEST(SceneFile, AByteOrderMarkIsNoPartOfTheText) {
+  EXPECT_EQ(sceneOf("\xef\xbb\xbf{\"objects\": [{\"builtin\": \"plane:2\"}]}").triangles.size(), 2U);
 }
 
 TEST(SceneFile, ASceneOfTooManyPrimitivesIsRefusedOnTheLineThatIsTooMuch) {
@@ -780,4 +869,4 @@ TEST(Image, TornAndHostileFilesAreOneLine) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_scene_file

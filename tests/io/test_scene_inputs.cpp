@@ -9,7 +9,7 @@
 #include "io/sha256.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_scene_inputs {
 namespace {
 
 std::set<std::string> namesOf(const std::string& scene) {
@@ -81,4 +81,4 @@ TEST(SceneInputs, TheirNumbersChangeWithWhatIsInThem) {
 TEST(SceneInputs, AFileThatIsNotThereIsAnError) { EXPECT_THROW(sceneInputs("/nonexistent/a.obj"), Error); }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_scene_inputs

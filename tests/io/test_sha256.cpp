@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_sha256 {
 namespace {
 
 TEST(Sha256Digest, HasTheVectorsOfItsStandard) {
@@ -23,4 +23,4 @@ TEST(Sha256Digest, OfAFileIsThatOfItsBytes) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_sha256

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-namespace hl {
+namespace hl::test_solids {
 namespace {
 
 double volumeOf(const Model& model) {
@@ -77,4 +77,4 @@ TEST(Solids, AProfileThatTurnsInwardIsABowl) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_solids

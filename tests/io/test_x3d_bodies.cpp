@@ -17,7 +17,7 @@
 #include "solids.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_x3d_bodies {
 namespace {
 
 using test::fileWith;
@@ -315,17 +315,17 @@ TEST(X3dBodies, AFlatShapeStaysWhereItIs) {
 
 TEST(X3dBodies, NoMoreBodiesThanCanMove) {
   std::string many;
-  for (std::size_t i = 0; i < kMostBodies + 2; ++i) many += body("");
+  for (std::size_t i = 0; i < kMaxBodies + 2; ++i) many += body("");
   const SceneModel scene = withCubes(collection(many));
-  EXPECT_EQ(scene.bodies.size(), kMostBodies);
+  EXPECT_EQ(scene.bodies.size(), kMaxBodies);
   EXPECT_TRUE(warns(scene, "2 bodies are left out"));
 }
 
 TEST(X3dBodies, BodiesThatStayTakeNoRoomOfThoseThatMove) {
   std::string many = body("");
-  for (std::size_t i = 0; i < kMostBodies + 2; ++i) many += body("fixed='true'");
+  for (std::size_t i = 0; i < kMaxBodies + 2; ++i) many += body("fixed='true'");
   const SceneModel scene = withCubes(collection(many + body("")));
-  EXPECT_EQ(scene.bodies.size(), kMostBodies + 4);
+  EXPECT_EQ(scene.bodies.size(), kMaxBodies + 4);
   EXPECT_FALSE(warns(scene, "left out"));
 }
 
@@ -337,7 +337,7 @@ TEST(X3dBodies, HostileFilesAreOneLine) {
   }
   EXPECT_NE(errorOf(collection(deep + shut)).find("nested too deep"), std::string::npos);
   EXPECT_NE(errorOf("<X3D><RigidBodyCollection>").find("is no XML"), std::string::npos);
-  EXPECT_THROW(withCubes(std::string(kMostX3dBytes + 1, ' ')), Error);
+  EXPECT_THROW(withCubes(std::string(kMaxX3dBytes + 1, ' ')), Error);
   const std::string twice = "<CollidableOffset USE='o'/>";
   const std::string within =
       "<RigidBody><CollidableOffset DEF='o'>" + twice + twice + "</CollidableOffset></RigidBody>";
@@ -384,4 +384,4 @@ TEST(X3dBodies, DamagedFilesNeverHarm) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_x3d_bodies

@@ -52,9 +52,9 @@ class Input {
 
 // Some at a time, so that no end waits for another that sends without a pause.
 void readPackets(Hub& hub, int end, int device) {
-  constexpr int kMost = 64;
+  constexpr int kMax = 64;
   std::array<char, 2048> buffer;
-  for (int i = 0; i < kMost; ++i) {
+  for (int i = 0; i < kMax; ++i) {
     const ssize_t size = read(device, buffer.data(), buffer.size());
     if (size <= 0) return;
     hub.put(end, Packet(buffer.data(), buffer.data() + size), monotonicNow_ns());
@@ -130,7 +130,7 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   std::vector<std::string> order;
   app.add_option("--ends", ends, "how many namespaces")
-      ->check(CLI::Range(2, hl::line::Hub::kMostEnds))
+      ->check(CLI::Range(2, hl::line::Hub::kMaxEnds))
       ->capture_default_str();
   app.add_option("--seed", seed, "of all chance: the same loses the same packets")->capture_default_str();
   app.add_option("ORDER", order, "how the line is from the start, such as: delay 50 jitter 5 loss 1");

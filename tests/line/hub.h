@@ -16,7 +16,7 @@ std::string addressOf(int end);
 
 class Hub {
  public:
-  static constexpr int kMostEnds = 16;
+  static constexpr int kMaxEnds = 16;
 
   /// The links of other seeds lose other packets.
   Hub(int ends, std::uint64_t seed);

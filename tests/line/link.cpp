@@ -31,7 +31,7 @@ void Link::put(Packet packet, std::int64_t now_ns) {
     ++counts_.cut;
   } else if (lost) {
     ++counts_.lost;
-  } else if (waiting_.size() >= kMostWaiting) {
+  } else if (waiting_.size() >= kMaxWaiting) {
     ++counts_.full;
   } else {
     std::int64_t sent_ns = now_ns;

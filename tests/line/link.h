@@ -26,14 +26,14 @@ struct LinkCounts {
   std::uint64_t taken = 0, given = 0;
   std::uint64_t lost = 0;  ///< by loss_percent
   std::uint64_t cut = 0;   ///< put on it, or on their way, while it was cut
-  std::uint64_t full = 0;  ///< more than kMostWaiting were on their way
+  std::uint64_t full = 0;  ///< more than kMaxWaiting were on their way
   std::uint64_t waiting = 0;
 };
 
 class Link {
  public:
   /// So many packets at most are on their way: 15 MB.
-  static constexpr std::size_t kMostWaiting = 10'000;
+  static constexpr std::size_t kMaxWaiting = 10'000;
   /// What take() waits for when there is nothing.
   static constexpr std::int64_t kNever_ns = INT64_MAX;
 

@@ -10,7 +10,7 @@ namespace hl::line {
 
 namespace {
 
-constexpr double kMostDelay_ms = 10'000, kMostRate_Mbit_s = 1e6;
+constexpr double kMaxDelay_ms = 10'000, kMaxRate_Mbit_s = 1e6;
 
 // "nan" and "inf" are out of range.
 double number(const std::string& name, const std::string& text, double least, double most) {
@@ -43,13 +43,13 @@ void addWord(Order& order, const std::string& name, const std::string& value, in
   } else if (name == "to") {
     order.to = endOf(name, value, ends);
   } else if (name == "delay") {
-    order.delay_ms = number(name, value, 0, kMostDelay_ms);
+    order.delay_ms = number(name, value, 0, kMaxDelay_ms);
   } else if (name == "jitter") {
-    order.jitter_ms = number(name, value, 0, kMostDelay_ms);
+    order.jitter_ms = number(name, value, 0, kMaxDelay_ms);
   } else if (name == "loss") {
     order.loss_percent = number(name, value, 0, 100);
   } else if (name == "rate") {
-    order.rate_Mbit_s = number(name, value, 0, kMostRate_Mbit_s);
+    order.rate_Mbit_s = number(name, value, 0, kMaxRate_Mbit_s);
   } else if (name == "reorder") {
     order.reorder = switchOf(name, value);
   } else {

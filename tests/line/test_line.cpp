@@ -13,7 +13,7 @@
 #include "line/udp_socket.h"
 #include "wait_for.h"
 
-namespace hl::line {
+namespace hl::line::test_line {
 namespace {
 
 class LineTest : public ::testing::Test {
@@ -151,4 +151,4 @@ TEST_F(LineTest, TheMachinesOwnNetworkSeesNothing) {
 }
 
 }  // namespace
-}  // namespace hl::line
+}  // namespace hl::line::test_line

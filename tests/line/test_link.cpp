@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "line/hub.h"
 
-namespace hl::line {
+namespace hl::line::test_link {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
@@ -123,9 +123,9 @@ TEST(Link, ACutTakesAllThatIsOnItsWay) {
 
 TEST(Link, WhatIsOnItsWayIsBounded) {
   Link link = linkWith({.delay_ms = 10});
-  for (std::size_t i = 0; i < Link::kMostWaiting + 5; ++i) link.put(numbered(0), 0);
+  for (std::size_t i = 0; i < Link::kMaxWaiting + 5; ++i) link.put(numbered(0), 0);
   EXPECT_EQ(link.counts().full, 5u);
-  EXPECT_EQ(link.counts().waiting, Link::kMostWaiting);
+  EXPECT_EQ(link.counts().waiting, Link::kMaxWaiting);
 }
 
 TEST(Link, ASmallerDelayLetsNoPacketPassAnother) {
@@ -200,4 +200,4 @@ TEST(Hub, WhatIsNoOrderIsRefused) {
 }
 
 }  // namespace
-}  // namespace hl::line
+}  // namespace hl::line::test_link

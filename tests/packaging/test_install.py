@@ -106,6 +106,16 @@ class Installed(unittest.TestCase):
         run("cmake", "--build", build, "--target", "example_01_sphere", "example_02_teapot_with_material")
         self.assertIn("force:", run(build / "bin/examples/01_sphere", "inproc:", "1.1"))
 
+    def test_examples_without_the_messages_of_ros_leave_out_what_needs_them(self):
+        examples = self.folder("some_examples")
+        shutil.copytree(next(self.prefix.glob("share/doc/*/examples")), examples, dirs_exist_ok=True)
+        (examples / "ros2.idl").unlink(missing_ok=True)
+        build = self.folder("some")
+        run("cmake", "-S", examples, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        targets = run("cmake", "--build", build, "--target", "help")
+        self.assertIn("example_01_sphere", targets)
+        self.assertNotIn("example_19_ros_circle", targets)
+
     def test_the_installed_server_finds_its_page(self):
         page = self.prefix / "share/hl/viewer/index.html"
         if not page.exists():  # the page is built by scripts/build, not by CMake
@@ -132,7 +142,8 @@ class DebianPackages(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.temporary.name)
-        run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder)
+        # What is packed quickly is unpacked as well.
+        run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder, "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip")
         cls.packages = {file.name.split("_")[0]: file for file in cls.folder.glob("*.deb")}
 
     @classmethod

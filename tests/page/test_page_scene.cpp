@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <thread>
 
 #include "builtin.h"
+#include "surfaces/iso_surface.h"
 
-namespace hl {
+namespace hl::test_page_scene {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
@@ -21,6 +23,23 @@ std::shared_ptr<const Shape> plane(int triangles) {
 
 Instance instanceOf(std::uint64_t key, const std::shared_ptr<const Shape>& shape, const Motion& motion = Motion()) {
   return {shape, surfacesOf(shape), motion, key, 1, static_cast<std::uint32_t>(10 * key), 0};
+}
+
+// A ball of more triangles than a page draws at first of a surface that has replaced another one.
+std::shared_ptr<const Shape> largeBall(double radius) {
+  constexpr std::uint32_t kSide = 160;
+  const auto samples = std::make_shared<std::vector<float>>();
+  for (std::uint32_t z = 0; z < kSide; ++z) {
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+      for (std::uint32_t x = 0; x < kSide; ++x)
+        samples->push_back(static_cast<float>(radius - (Vec3(x, y, z) - Vec3::Constant(kSide / 2.0)).norm()));
+    }
+  }
+  const std::shared_ptr<const void> data(samples, samples->data());
+  const auto volume =
+      std::make_shared<const Volume>(VoxelGrid({kSide, kSide, kSide}, Samples(SampleKind::kFloat32, data)));
+  return makeShape(std::make_shared<const IsoSurface>(volume, GridFrame{1e-3 * Mat3::Identity(), Vec3::Zero()},
+                                                      IsoValue{0, SolidSide::kAbove}));
 }
 
 Pose at(double x, double y = 0, double z = 0) { return {Mat3::Identity(), {x, y, z}}; }
@@ -69,6 +88,20 @@ TEST_F(PageSceneTest, ObjectsHaveTheNamesAndColoursOfTheirFiles) {
   EXPECT_TRUE(second.placed(1).colour().empty());
 }
 
+TEST_F(PageSceneTest, BodiesHaveTheNamesOfTheirFilesToo) {
+  const Box room{Vec3::Constant(-1), Vec3::Constant(1)};
+  std::vector<Instance> instances{instanceOf(1, small_), instanceOf(2, small_)};
+  for (Instance& instance : instances) {
+    BodySpec fixed;
+    fixed.fixed = true;
+    setBody(instance, makeRigidBody("door", fixed, Pose{}, instance.shape->bounds, room));
+  }
+  instances[0].session = 0;
+  const proto::SceneLayout layout = show(makeSnapshot(instances)).back().layout();
+  EXPECT_EQ(layout.placed(0).label(), "door");
+  EXPECT_EQ(layout.placed(1).label(), "") << "of a client";
+}
+
 TEST_F(PageSceneTest, AMeshIsSentOnceHoweverOftenItIsPlaced) {
   const auto snapshot = makeSnapshot(
       {instanceOf(1, small_), instanceOf(2, large_, Motion(at(0.5))), instanceOf(3, small_, Motion(at(0, 0, 3)))},
@@ -91,6 +124,28 @@ TEST_F(PageSceneTest, AMeshIsSentOnceHoweverOftenItIsPlaced) {
   EXPECT_EQ(poseNumber(layout.poses(), 2, 11), 3.0f);
   EXPECT_EQ(poseNumber(layout.poses(), 2, 10), 1.0f);
   EXPECT_EQ(stateAt(0).layout(), layout.number());
+}
+
+TEST_F(PageSceneTest, ASurfaceAtAnotherValueIsDrawnInFullWhenTheValueIsStill) {
+  const auto trianglesOf = [](const proto::ServerMessage& message) {
+    return message.mesh().triangles().size() / (3 * sizeof(std::uint32_t));
+  };
+  const std::shared_ptr<const Shape> first = largeBall(75), second = largeBall(74);
+  const auto as_read = show(makeSnapshot({instanceOf(1, first)}));
+  std::vector<Instance> instances{instanceOf(1, second)};
+  instances[0].replaced_in = 2;
+  const auto changed = makeSnapshot(instances);
+  const auto soon = show(changed, 100 * kMs);
+  EXPECT_LT(trianglesOf(soon[0]), trianglesOf(as_read[0]) / 2) << "it may change again at once";
+  scene_.follow(changed, kScale, 100 * kMs + PageMeshes::kStill_ns - 1);
+  EXPECT_TRUE(drain(page_).empty());
+
+  const auto still = show(changed, 100 * kMs + PageMeshes::kStill_ns);
+  ASSERT_GE(still.size(), 2U);
+  EXPECT_GT(trianglesOf(still[0]), 9 * trianglesOf(as_read[0]) / 10);
+  EXPECT_EQ(still[1].layout().placed(0).mesh(), still[0].mesh().number());
+  scene_.follow(changed, kScale, 10'000 * kMs);
+  EXPECT_TRUE(drain(page_).empty()) << "once";
 }
 
 TEST_F(PageSceneTest, ASecondPageGetsTheSameBytes) {
@@ -397,7 +452,7 @@ TEST(PageSceneMemory, AMeshThatDoesNotFitIsToldAndTheRestIsShown) {
 TEST(PageMeshes, AMeshBeyondTheLargestMessageIsToldNotSentEmpty) {
   PageMeshes meshes({}, 5000);
   const auto snapshot = makeSnapshot({instanceOf(1, plane(8)), instanceOf(2, plane(2000))});
-  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*snapshot);
+  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*snapshot, 0);
   while (!meshes.ready()) std::this_thread::yield();
   proto::ServerMessage small, large;
   ASSERT_TRUE(small.ParseFromString(*meshes.message(numbers[0])));
@@ -410,4 +465,4 @@ TEST(PageMeshes, AMeshBeyondTheLargestMessageIsToldNotSentEmpty) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_page_scene

@@ -13,7 +13,7 @@
 #include "surfaces/cloud_maker.h"
 #include "surfaces/point_cloud.h"
 
-namespace hl {
+namespace hl::test_surface_images {
 namespace {
 
 // What a page is sent of the images of a model's own surfaces.
@@ -50,7 +50,7 @@ TEST(SurfaceImages, PlainModelsSendNone) {
 TEST(SurfaceImages, HeightsAndDepthImagesShowTheirs) {
   const auto scene = makeSnapshot(loadSceneFile(HL_EXAMPLES "/textured_heights.hl.json"));
   PageMeshes meshes;
-  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*scene);
+  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*scene, 0);
   ASSERT_EQ(numbers.size(), 2U);
   while (!meshes.ready()) std::this_thread::yield();
   for (std::size_t i = 0; i < 2; ++i) {
@@ -88,7 +88,7 @@ TEST(SurfaceImages, CloudsShowTheirColours) {
   }
   const auto snapshot = makeSnapshot(scene);
   PageMeshes meshes;
-  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*snapshot);
+  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*snapshot, 0);
   while (!meshes.ready()) std::this_thread::yield();
   proto::ServerMessage coloured, plain;
   ASSERT_TRUE(coloured.ParseFromString(*meshes.message(numbers.at(0))));
@@ -102,4 +102,4 @@ TEST(SurfaceImages, CloudsShowTheirColours) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_surface_images

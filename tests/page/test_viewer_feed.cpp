@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <hl.pb.h>
 
-namespace hl {
+namespace hl::test_viewer_feed {
 namespace {
 
 proto::OtherDevice handOf(const std::string& server, const std::string& label) {
@@ -80,4 +80,4 @@ TEST_F(SharedWorldOfAPage, SaysWhyItIsSharedNoMore) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_viewer_feed

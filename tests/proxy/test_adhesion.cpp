@@ -11,8 +11,9 @@
 #include "effect_scenes.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
+#include "solids.h"
 
-namespace hl {
+namespace hl::test_adhesion {
 namespace {
 
 constexpr double kK = 1000;
@@ -105,13 +106,18 @@ TEST(Adhesion, AProxyThatIsPulledSlidesAlong) {
   }
 }
 
-// Coulomb friction under the load N + A: a finger that presses with N may pull sideways by mu (N + A).
-TEST(Adhesion, AddsToTheLoadThatFrictionSees) {
+// Coulomb friction under the load N + A: a finger that presses with N may pull sideways by mu (N + A), also where A
+// would stretch the spring by many radii.
+class AdhesionAndFriction : public testing::TestWithParam<std::pair<double, double>> {};
+
+TEST_P(AdhesionAndFriction, TheAdhesionAddsToTheLoad) {
+  const auto [adhesion_N, stiffness] = GetParam();
   const auto scene = test::snapshotOf(test::floorModel());
-  ProxySettings settings = adhesive(0.4);
+  ProxySettings settings = adhesive(adhesion_N);
+  settings.surfaces.stiffness = stiffness;
   settings.surfaces.static_friction = settings.surfaces.dynamic_friction = 0.5;
   ProxyState state = restingOn(*scene, settings);
-  const double load_N = kK * 0.2e-3 + 0.4, most_m = 0.5 * load_N / kK;
+  const double load_N = kK * stiffness * 0.2e-3 + adhesion_N, most_m = 0.5 * load_N / (kK * stiffness);
   Vec3 finger(0, kRadius - 0.2e-3, 0);
   for (int i = 0; i < 10; ++i) tick(state, *scene, settings, finger);
   const Vec3 stuck = state.position;
@@ -120,7 +126,51 @@ TEST(Adhesion, AddsToTheLoadThatFrictionSees) {
   EXPECT_NEAR((state.position - stuck).norm(), 0, kRounding_m);
   finger.x() = stuck.x() + 1.5 * most_m;
   for (int i = 0; i < 10; ++i) tick(state, *scene, settings, finger);
-  EXPECT_NEAR(finger.x() - state.position.x(), most_m, 1e-9);
+  EXPECT_NEAR(finger.x() - state.position.x(), most_m, 1e-9 + 1e-9 * most_m);
+}
+INSTANTIATE_TEST_SUITE_P(Newtons, AdhesionAndFriction,
+                         testing::Values(std::pair{0.4, 1.0}, std::pair{0.4, 0.2}, std::pair{2.0, 1.0},
+                                         std::pair{5.0, 1.0}, std::pair{5.0, 0.2}));
+
+// A surface without stiffness pulls by nothing, so no adhesion is too little, and none makes a place that is no number.
+TEST(Adhesion, OfASurfaceWithoutStiffnessLeavesThePlaceANumber) {
+  const auto scene = test::snapshotOf(test::floorModel());
+  for (const double friction : {0.0, 0.5}) {
+    ProxySettings settings = adhesive(1);
+    settings.surfaces.stiffness = 0;
+    settings.surfaces.viscosity_Ns_m = 5;
+    settings.surfaces.static_friction = settings.surfaces.dynamic_friction = friction;
+    ProxyState state = restingOn(*scene, settings);
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 finger(1e-4 * i, kRadius + 1e-5 * (i - 50), 0);
+      const TickReport report = tick(state, *scene, settings, finger);
+      ASSERT_TRUE(state.position.allFinite() && report.target.allFinite()) << friction << " " << i;
+      ASSERT_NEAR(forceOf(report, finger).norm(), 0, 1e-9);
+    }
+  }
+}
+
+// Over the edges and corners of a ball of few faces, pulled by several times its radius: it stays under the finger.
+TEST(Adhesion, OfManyRadiiFollowsEdges) {
+  constexpr double kBall_m = 0.004, kLead_rad = M_PI / 1800;
+  for (const double adhesion_N : {2.0, 5.0, 20.0}) {
+    for (const std::size_t sides : {8U, 20U, 40U}) {
+      for (const double part : {0.3, 0.6}) {
+        const auto scene = makeSnapshot(ballSolid(kBall_m, sides));
+        const ProxySettings settings = adhesive(adhesion_N);
+        const double height = kBall_m + kRadius + part * adhesion_N / kK;
+        ProxyState state = startProxy(*scene, settings, {0, 0.01, 0});
+        for (int i = 0; i < 5; ++i) tick(state, *scene, settings, {0, kBall_m + 0.9 * kRadius, 0});
+        for (int i = 0; i <= 900; ++i) {
+          const Vec3 outward = Vec3(std::sin(i * kLead_rad), std::cos(i * kLead_rad), 0.1).normalized();
+          tick(state, *scene, settings, height * outward);
+          ASSERT_TRUE(state.touching) << adhesion_N << " " << sides << " " << part << " " << i;
+          ASSERT_GT(state.position.normalized().dot(outward), 0.95);
+        }
+        EXPECT_EQ(state.ledger.injected_J, 0);
+      }
+    }
+  }
 }
 
 // Over the edges of a prism of 60 sides, pulled outward by half of what it withstands.
@@ -190,4 +240,4 @@ TEST(Adhesion, IsRealTimeSafe) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_adhesion

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace hl {
+namespace hl::test_anderson_mixing {
 namespace {
 
 // Passes x -> centre + shrink (x - centre) in the plane z = 0 until one changes nothing; returns how many.
@@ -42,4 +42,4 @@ TEST(AndersonMixing, TakesThePassItselfWhereThePassesDoNotShrink) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_anderson_mixing

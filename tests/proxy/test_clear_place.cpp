@@ -11,7 +11,7 @@
 #include "geometry/scenes.h"
 #include "judge.h"
 
-namespace hl {
+namespace hl::test_clear_place {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -92,4 +92,4 @@ RC_GTEST_PROP(ClearPlace, TheClearanceIsTheLeastDistanceOfAllTriangles, (std::ui
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_clear_place

@@ -6,7 +6,7 @@
 #include "geometry/scenes.h"
 #include "judge.h"
 
-namespace hl {
+namespace hl::test_constraints {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -77,4 +77,4 @@ TEST_F(ConstraintsTest, AStepIsFeasibleAndDescends) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_constraints

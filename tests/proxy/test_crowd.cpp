@@ -11,7 +11,7 @@
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_crowd {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -141,4 +141,4 @@ TEST(Crowd, TheOrderOfTrianglesAtAVertexDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_crowd

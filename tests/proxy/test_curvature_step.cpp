@@ -7,7 +7,7 @@
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_curvature_step {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -138,4 +138,4 @@ TEST(CurvatureStep, AllButAtAnEdgeOfHillsItTakesFewSteps) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_curvature_step

@@ -7,7 +7,7 @@
 
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_ending {
 namespace {
 
 TEST(Ending, EachHasANameOfItsOwnInSmallLettersAndUnderscores) {
@@ -33,4 +33,4 @@ TEST(Ending, TheNamesAreInTheOrderOfTheEndings) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_ending

@@ -10,7 +10,7 @@
 
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_energy_booking {
 namespace {
 
 constexpr double kK = 1000;
@@ -264,4 +264,4 @@ RC_GTEST_PROP(EnergyBooking, ATickBooksWhatItDidToTheEnergyAndNoMoreThanItMay, (
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_energy_booking

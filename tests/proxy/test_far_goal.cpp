@@ -10,7 +10,7 @@
 #include "geometry/scenes.h"
 #include "proxy/solver.h"
 
-namespace hl {
+namespace hl::test_far_goal {
 namespace {
 
 TEST(FarGoal, ANearGoalIsLeftToTheBitAndAFarOneComesNearerInItsDirection) {
@@ -61,4 +61,4 @@ TEST(FarGoal, AWayOfNoLengthIsWithinTheBallOrNot) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_far_goal

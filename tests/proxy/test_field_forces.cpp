@@ -10,7 +10,7 @@
 #include "geometry/scenes.h"
 #include "moving_scenes.h"
 
-namespace hl {
+namespace hl::test_field_forces {
 namespace {
 
 FieldSpec magnet(std::vector<Vec3> points, double reach_m = 0.03, double force_N = 2) {
@@ -139,14 +139,14 @@ TEST(FieldForces, MoveWithTheirObject) {
 TEST(FieldForces, FourActAtOnceTheFirstOfTheScene) {
   FieldList fields(6, magnet({Vec3::Zero()}));
   const FieldForces felt = fieldForces(*sceneOf(fields), {0.01, 0, 0});
-  EXPECT_EQ(felt.forces.size(), kMostFieldsAtOnce);
+  EXPECT_EQ(felt.forces.size(), kMaxFieldsAtOnce);
   EXPECT_NEAR(felt.force_N.x(), -8, 1e-12);
 }
 
 TEST(FieldForces, TakeNoMemory) {
   test::Random random(2);
   FieldList fields;
-  for (std::size_t i = 0; i < kMostFields; ++i) fields.push_back(magnet({random.inCube(0.1), random.inCube(0.1)}));
+  for (std::size_t i = 0; i < kMaxFields; ++i) fields.push_back(magnet({random.inCube(0.1), random.inCube(0.1)}));
   const auto scene = sceneOf(fields);
   double most_N = 0;
   const RealtimeGuard guard;
@@ -155,4 +155,4 @@ TEST(FieldForces, TakeNoMemory) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_field_forces

@@ -9,7 +9,7 @@
 #include "proxy/friction.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_friction {
 namespace {
 
 constexpr double kK = 1800;       // N/m
@@ -38,7 +38,9 @@ Steady drag(const Snapshot& scene, const ProxySettings& settings, double depth, 
   const double y = kRadius - depth;
   tick(state, scene, settings, {-0.08, y, 0});
   // Past breakaway, and past the transient of viscosity, whose time constant is b / K.
-  const double start = 0.004 + speed * (0.02 + 10 * settings.surfaces.viscosity_Ns_m.value_or(0) / kK);
+  const double softest_N_m =
+      kK * settings.surfaces.stiffness.value_or(1) / (1 + kK * settings.surfaces.compliance_m_N.value_or(0));
+  const double start = 0.004 + speed * (0.02 + 10 * settings.surfaces.viscosity_Ns_m.value_or(0) / softest_N_m);
   double sum = 0, least = 1e9, most = 0;
   int n = 0;
   for (double x = 0; x < 0.15; x += speed * settings.period_s) {
@@ -69,6 +71,38 @@ TEST(Friction, SteadyDragIsCoulombPlusViscous) {
 }
 
 // The same over the seams of a finely tessellated floor: the drag must not depend on the triangles.
+// A soft surface, or one that yields in series, drags the hand by the same newtons for each m/s.
+TEST(Friction, ViscosityActsOnTheHandHoweverSoftTheSurfaceIs) {
+  const auto scene = test::snapshotOf(test::floorModel());
+  for (const double stiffness : {1.0, 0.5, 0.1}) {
+    for (const double compliance_m_N : {0.0, 1e-3}) {
+      for (const double b : {0.5, 5.0}) {
+        ProxySettings settings = settingsOf(0, 0, b);
+        settings.surfaces.stiffness = stiffness;
+        settings.surfaces.compliance_m_N = compliance_m_N;
+        EXPECT_NEAR(drag(*scene, settings, kDepth, 0.02).mean, b * 0.02, 1e-3 * b * 0.02)
+            << stiffness << " " << compliance_m_N << " " << b;
+      }
+    }
+  }
+}
+
+// sigma_0 in series with the spring as it is felt, K s.
+TEST(Friction, PreslidingSpringsAreThoseOfTheHand) {
+  const auto scene = test::snapshotOf(test::floorModel());
+  for (const double stiffness : {1.0, 0.25}) {
+    ProxySettings settings = settingsOf(5, 5);
+    settings.surfaces.stiffness = stiffness;
+    settings.surfaces.presliding_N_m = 500;
+    settings.ledger = LedgerMode::kTank;
+    ProxyState state = startProxy(*scene, settings, {0, 0.01, 0});
+    const double y = kRadius - kDepth, x = 1e-4, felt_N_m = kK * stiffness;
+    for (int i = 0; i < 3; ++i) tick(state, *scene, settings, {0, y, 0});
+    for (int i = 0; i < 30; ++i) tick(state, *scene, settings, {x, y, 0});
+    EXPECT_NEAR(state.position.x(), x * felt_N_m / (felt_N_m + 500), 1e-10) << stiffness;
+  }
+}
+
 TEST(Friction, SteadyDragDoesNotFeelTheTessellation) {
   Model model;
   for (int i = 0; i < 700; ++i) {
@@ -241,4 +275,4 @@ TEST(Friction, NeverAddsEnergy) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_friction

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hl {
+namespace hl::test_goal {
 namespace {
 
 TEST(Goal, IsTheFingerUntilItIsSetElsewhere) {
@@ -25,4 +25,4 @@ TEST(Goal, TheNearerOfTwoPlacesIsToldHoweverFarItIs) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_goal

@@ -13,7 +13,7 @@
 #include "proxy/proxy.h"
 #include "scene/iso_shape.h"
 
-namespace hl {
+namespace hl::test_leave_matter {
 namespace {
 
 using test::Random;
@@ -107,7 +107,9 @@ TEST_F(OnPhantom, IsNeverSwallowedWhileTheValueSweeps) {
           ASSERT_TRUE(state_.touching) << value;
           ASSERT_NEAR(state_.position.y(), below_m, 0.0045) << value << " HU, tick " << k;
         }
-        if (value > 50) ASSERT_LT((state_.position - finger_).norm(), 1e-6) << "there is no skin: free";
+        if (value > 50) {
+          ASSERT_LT((state_.position - finger_).norm(), 1e-6) << "there is no skin: free";
+        }
       }
     }
   }
@@ -157,19 +159,19 @@ TEST_F(OnPhantom, WhatItIsWithinItStaysWithin) {
 TEST_F(OnPhantom, IsNotSwallowedByTheLastOfManySurfaces) {
   const SceneModel phantom = makePhantom(81);
   SceneModel many;
-  for (std::size_t i = 0; i < kMostMatter; ++i)
+  for (std::size_t i = 0; i < kMaxMatter; ++i)
     many.surfaces.push_back({"far", phantom.surfaces[1].source->placed(Mat3::Identity(), Vec3(1 + 0.3 * i, 0, 0))});
   many.surfaces.push_back(phantom.surfaces[0]);
   Changing scene(many);
-  EXPECT_EQ(scene.shown().matter.size(), kMostMatter);
-  scene.setIso(kMostMatter, 5000);  // no surface: the finger comes to where there will be matter
+  EXPECT_EQ(scene.shown().matter.size(), kMaxMatter);
+  scene.setIso(kMaxMatter, 5000);  // no surface: the finger comes to where there will be matter
   const Vec3 finger(0.005, 0.03, 0);
   ProxyState state = startProxy(scene.shown(), kSettings, finger);
   ASSERT_EQ(state.position, finger);
   tick(state, scene.shown(), kSettings, finger);
-  scene.setIso(kMostMatter, -480);
+  scene.setIso(kMaxMatter, -480);
   tick(state, scene.shown(), kSettings, finger);
-  EXPECT_LT(valueAt(scene.surface(kMostMatter), state.position), -480);
+  EXPECT_LT(valueAt(scene.surface(kMaxMatter), state.position), -480);
 }
 
 TEST_F(OnPhantom, OtherScenesMoveItNot) {
@@ -233,4 +235,4 @@ TEST(LeaveMatter, RandomVolumesAndValues) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_leave_matter

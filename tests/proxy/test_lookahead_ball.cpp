@@ -10,7 +10,7 @@
 #include "proxy/proxy.h"
 #include "scene/snapshot.h"
 
-namespace hl {
+namespace hl::test_lookahead_ball {
 namespace {
 
 constexpr double kRadius = 0.01;
@@ -213,4 +213,4 @@ TEST(LookaheadBall, WhatMovesHasNone) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_lookahead_ball

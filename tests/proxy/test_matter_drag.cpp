@@ -15,7 +15,7 @@
 #include "proxy/proxy.h"
 #include "surfaces/iso_surface.h"
 
-namespace hl {
+namespace hl::test_matter_drag {
 namespace {
 
 constexpr double kK = 1000;
@@ -158,7 +158,7 @@ TEST(MatterDrag, IsFeltBesideManyOtherVolumes) {
     instances.back().key = key;
   }
   const auto snapshot = makeSnapshot(std::move(instances));
-  ASSERT_EQ(snapshot->matter.size(), kMostMatter);
+  ASSERT_EQ(snapshot->matter.size(), kMaxMatter);
   EXPECT_EQ(snapshot->instances[snapshot->matter.front()].key, 40U);
 }
 
@@ -172,4 +172,4 @@ TEST(MatterDrag, IsRealTimeSafe) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_matter_drag

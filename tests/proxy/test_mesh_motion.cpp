@@ -12,7 +12,7 @@
 #include "moving_scenes.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_mesh_motion {
 namespace {
 
 constexpr double kRadius = 0.002;
@@ -328,4 +328,4 @@ TEST(Bend, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_mesh_motion

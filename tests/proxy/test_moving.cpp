@@ -9,7 +9,7 @@
 #include "moving_scenes.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_moving {
 namespace {
 
 constexpr double kRadius = 0.002;
@@ -213,4 +213,4 @@ TEST(Moving, NoAllocation) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_moving

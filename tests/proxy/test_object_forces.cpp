@@ -8,7 +8,7 @@
 #include "moving_scenes.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_object_forces {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -106,4 +106,4 @@ TEST(ObjectForces, FrictionIsOfTheObjectThatHasSome) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_object_forces

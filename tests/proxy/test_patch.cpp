@@ -6,7 +6,7 @@
 #include "geometry/scenes.h"
 #include "scene/snapshot.h"
 
-namespace hl {
+namespace hl::test_patch {
 namespace {
 
 constexpr PrimitiveId kTriangle{0, 0};
@@ -92,4 +92,4 @@ TEST(Patch, WithoutUsableNormalsFeelsAsItIs) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_patch

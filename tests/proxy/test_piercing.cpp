@@ -15,7 +15,7 @@
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_piercing {
 namespace {
 
 constexpr double kK = 1000;
@@ -179,4 +179,4 @@ TEST(Piercing, IsRealTimeSafe) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_piercing

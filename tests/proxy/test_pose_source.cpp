@@ -9,7 +9,7 @@
 #include "proxy/proxy.h"
 #include "scripted_poses.h"
 
-namespace hl {
+namespace hl::test_pose_source {
 namespace {
 
 constexpr double kRadius = 0.002;
@@ -83,4 +83,4 @@ TEST(PoseSource, WhatAScriptDrivesNeverPassesTheProxy) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_pose_source

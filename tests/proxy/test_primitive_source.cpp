@@ -9,7 +9,7 @@
 #include "scene/snapshot.h"
 #include "sphere_source.h"
 
-namespace hl {
+namespace hl::test_primitive_source {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -158,4 +158,4 @@ TEST(PrimitiveSource, MoreTrianglesThanThereIsMemoryForAreTouchedLikeAPlane) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_primitive_source

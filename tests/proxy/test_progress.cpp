@@ -6,7 +6,7 @@
 #include "judge.h"
 #include "proxy/tolerances.h"
 
-namespace hl {
+namespace hl::test_progress {
 namespace {
 
 const Goal kGoal(Vec3::Zero());
@@ -70,4 +70,4 @@ TEST_F(Settling, NothingSettlesOnEdgesWhosePlanesTurn) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_progress

@@ -12,7 +12,7 @@
 #include "geometry/scenes.h"
 #include "proxy/judge.h"
 
-namespace hl {
+namespace hl::test_proxy {
 namespace {
 
 using judge::grid;
@@ -481,4 +481,4 @@ TEST(Proxy, ATickNeverTouchesTheHeap) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_proxy

@@ -9,7 +9,7 @@
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_proxy_fuzz {
 namespace {
 
 // HL_POKES=1000000 in the environment makes it the million; the suite takes fewer to be quick.
@@ -71,4 +71,4 @@ TEST(C02Fuzz, PokesIntoATornSheetOfAMillionTrianglesNeverFallThrough) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_proxy_fuzz

@@ -9,7 +9,7 @@
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_proxy_slide {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -141,4 +141,4 @@ TEST(Slide, ConcaveTerrainWithADeepFinger) { slideOnHills(500, 0.050, 0.15); }
 TEST(Slide, ConcaveTerrainAtOneMetrePerSecond) { slideOnHills(500, 0.012, 1.0); }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_proxy_slide

@@ -11,7 +11,7 @@
 #include "moving_scenes.h"
 #include "proxy/clear_place.h"
 
-namespace hl {
+namespace hl::test_push_out {
 namespace {
 
 constexpr double kRadius = 0.002;
@@ -92,4 +92,4 @@ TEST(PushOut, ItNeitherLeavesATetrahedronNorGivesUpMuchRoom) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_push_out

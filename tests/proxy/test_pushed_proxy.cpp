@@ -5,7 +5,7 @@
 
 #include "moving_scenes.h"
 
-namespace hl {
+namespace hl::test_pushed_proxy {
 namespace {
 
 constexpr double kRadius = 0.002;
@@ -67,4 +67,4 @@ TEST(PushedProxy, OfTwoPlacesTouchedTheNearestDecides) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_pushed_proxy

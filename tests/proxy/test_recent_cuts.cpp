@@ -6,7 +6,7 @@
 #include "proxy/judge.h"
 #include "proxy/tolerances.h"
 
-namespace hl {
+namespace hl::test_recent_cuts {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -83,4 +83,4 @@ TEST_F(Left, WhatIsFarNoLongerCounts) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_recent_cuts

@@ -13,7 +13,7 @@
 #include "geometry/scenes.h"
 #include "moving_scenes.h"
 
-namespace hl {
+namespace hl::test_rigid_sweep {
 namespace {
 
 constexpr double kRadius = 0.002;
@@ -118,4 +118,4 @@ RC_GTEST_PROP(RigidSweep, NothingComesNearerBeforeItsEnd, (std::uint64_t seed)) 
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_rigid_sweep

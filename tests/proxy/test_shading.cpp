@@ -9,7 +9,7 @@
 #include "proxy/patch.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_shading {
 namespace {
 
 using test::prism;
@@ -272,4 +272,4 @@ TEST(Shading, SplitNormalsAreACrease) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_shading

@@ -10,7 +10,7 @@
 #include "judge.h"
 #include "moving_scenes.h"
 
-namespace hl {
+namespace hl::test_small_step {
 namespace {
 
 constexpr double kRadius = 0.002;
@@ -97,4 +97,4 @@ RC_GTEST_PROP(SmallStep, TheCentreKeepsHalfOfItsRoomAllTheWay, (std::uint64_t se
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_small_step

@@ -13,7 +13,7 @@
 #include "proxy/object_forces.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_snapping {
 namespace {
 
 constexpr double kK = 1000;
@@ -310,7 +310,7 @@ TEST(Snapping, LetsGoWhereTheSnapIsGone) {
 TEST(Snapping, TakesNoMemory) {
   test::Random random(5);
   SnapList snaps;
-  for (std::size_t i = 0; i < kMostSnaps; ++i) snaps.push_back(curve({random.inCube(0.01), random.inCube(0.01)}));
+  for (std::size_t i = 0; i < kMaxSnaps; ++i) snaps.push_back(curve({random.inCube(0.01), random.inCube(0.01)}));
   Instance floor = test::place(1, test::floorModel(), Motion(Pose{}));
   const auto scene = makeSnapshot({floor, snapsAt(2, snaps)});
   const ProxySettings settings = plain();
@@ -326,10 +326,10 @@ TEST(Snapping, TakesNoMemory) {
 
 // No more than may count.
 TEST(Snapping, ASceneCountsSoManySnapsAndPoints) {
-  const SnapList many(kMostSnaps + 6, curve({Vec3::Zero()}));
-  EXPECT_EQ(sceneOf(many)->snaps.size(), kMostSnaps);
-  const SnapList long_ones(kMostSnaps, curve(std::vector<Vec3>(kMostCorners, Vec3::Zero())));
-  EXPECT_EQ(sceneOf(long_ones)->snaps.size(), kMostSnapPoints / kMostCorners);
+  const SnapList many(kMaxSnaps + 6, curve({Vec3::Zero()}));
+  EXPECT_EQ(sceneOf(many)->snaps.size(), kMaxSnaps);
+  const SnapList long_ones(kMaxSnaps, curve(std::vector<Vec3>(kMaxCorners, Vec3::Zero())));
+  EXPECT_EQ(sceneOf(long_ones)->snaps.size(), kMaxSnapPoints / kMaxCorners);
 }
 
 // Obstacles of all kinds among snaps of all kinds: the proxy is clear of them, and no tick adds more than the tank has.
@@ -358,4 +358,4 @@ TEST(Snapping, AmongObstaclesNothingIsEnteredAndAllEnergyIsPaid) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_snapping

@@ -12,7 +12,7 @@
 
 #include "cases.h"
 
-namespace hl {
+namespace hl::test_solver {
 namespace {
 
 using Real = long double;
@@ -210,4 +210,4 @@ TEST(Solver, PlanesTiltedByATenMillionthAreBothKept) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_solver

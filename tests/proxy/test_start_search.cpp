@@ -11,7 +11,7 @@
 #include "judge.h"
 #include "moving_scenes.h"
 
-namespace hl {
+namespace hl::test_start_search {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -110,4 +110,4 @@ TEST(StartSearch, ItLooksAsFarAsItSaysAndBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_start_search

@@ -11,7 +11,7 @@
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_stiffness {
 namespace {
 
 constexpr double kK = 1000;
@@ -314,4 +314,4 @@ TEST(Ledger, TheTankBoundsWhatIsAdded) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_stiffness

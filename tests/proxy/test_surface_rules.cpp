@@ -12,7 +12,7 @@
 #include "geometry/scenes.h"
 #include "judge.h"
 
-namespace hl {
+namespace hl::test_surface_rules {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -36,7 +36,7 @@ struct At {
     gatherContacts(scene, place, tolerance.touching, tolerance.reach, set);
   }
   SurfaceRules rules(bool slipping = false, const Vec3& presliding_m = Vec3::Zero()) const {
-    return {scene, settings, tolerance, slipping, presliding_m};
+    return {scene, settings, tolerance, FrictionStart{slipping, presliding_m, kK}};
   }
   Proposal propose(SurfaceRules& by, const Vec3& finger) const {
     Proposal proposal;
@@ -281,10 +281,10 @@ TEST(SurfaceRules, AContactIsToldWithItsStiffnessAndFriction) {
   const ProxyContact contact = rules.describe(at.set, proposal.active[0]);
   EXPECT_EQ(contact.stiffness, 1) << "within 0..1";
   EXPECT_EQ(contact.static_friction, 0.4);
-  EXPECT_TRUE(contact.rough);
+  EXPECT_TRUE(contact.holds_tangentially);
   EXPECT_EQ(contact.normal, Vec3(Vec3::UnitY()));
   EXPECT_EQ(rules.stiffnessAt(proposal.active[0].place), 1);
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_surface_rules

@@ -12,7 +12,7 @@
 #include "proxy/contacts.h"
 #include "proxy/tolerances.h"
 
-namespace hl {
+namespace hl::test_sweep_cache {
 namespace {
 
 constexpr double kRadius = 0.01;
@@ -167,4 +167,4 @@ TEST(SweepCache, ATickThatRemembersIsATickThatSearchesToTheBit) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_sweep_cache

@@ -8,7 +8,7 @@
 #include "proxy/proxy.h"
 #include "scene/bump_gain.h"
 
-namespace hl {
+namespace hl::test_texture {
 namespace {
 
 constexpr double kK = 1000;
@@ -198,4 +198,4 @@ TEST(Texture, SwitchedOffTheMaterialIsPlain) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_texture

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hl {
+namespace hl::test_trial {
 namespace {
 
 const Vec3 kFinger(0, 0, 0), kFrom(0, 0, 1), kNearer(0, 0, 0.9), kFarther(0, 0, 1.1);
@@ -122,4 +122,4 @@ TEST(Trial, WhileOneIsOpenNoOtherBegins) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_trial

@@ -7,7 +7,7 @@
 
 #include "judge.h"
 
-namespace hl {
+namespace hl::test_walk {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -114,4 +114,4 @@ TEST_F(WalkTest, WhatIsKnownDecidesNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_walk

@@ -9,7 +9,7 @@
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
-namespace hl {
+namespace hl::test_work {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -158,4 +158,4 @@ TEST(Work, WithTheUsualBudgetNoTickAtAnApexOfAThousandSidesReachesTheIterationCa
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_work

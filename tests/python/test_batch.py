@@ -110,7 +110,8 @@ class Heights(unittest.TestCase):
         for wrong in ([1, 2, 3], [[1.0]], [["a", "b"], ["c", "d"]], [[1 + 2j] * 2] * 2):
             self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=wrong))
         good = np.zeros((3, 3), np.float32)
-        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=good, spacing=0))
+        for spacing in (0, -1.0, (1.0, float("nan"))):
+            self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=good, spacing=spacing))
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", heights=good))
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=np.full((3, 3), np.nan)))
 
@@ -217,8 +218,11 @@ class Volumes(unittest.TestCase):
         hl.Scene(volume=good, iso=3.5)
         for wrong in ([[1.0, 2.0]], np.zeros((2, 2, 1)), np.full((2, 2, 2), "a")):
             self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(volume=wrong, iso=0.5))
-        for iso in (None, 8.0, float("nan"), [], "a"):
+        for iso in (None, 8.0, 7.0001, 0.0, float("nan"), [], "a"):
             self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(volume=good, iso=iso))
+        for spacing in (0, -1.0, (-1, 1, 1), (1, 1, 0), (1, float("nan"), 1), float("inf")):
+            with self.assertRaisesRegex(hl.InvalidValueError, "^spacing must be from 1e-12 to 1e9 m along each axis"):
+                hl.Scene(volume=good, iso=3.5, spacing=spacing)
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(volume=good, iso=3.5, spacing=(1, 2)))
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(volume=good, iso=3.5, missing=float("inf")))
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", volume=good, iso=3.5))

@@ -271,11 +271,54 @@ class Touching(unittest.TestCase):
             self.touch.draw(*FLOOR)
         self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), 2)
 
+    def test_a_frame_that_fails_has_not_been(self):
+        with self.touch.define() as block:
+            self.touch.draw(*BLOCK, mode=hl.calls.HL_QUADS)
+        with self.touch.frame():
+            self.touch.place(block)
+            self.touch.draw(*FLOOR)
+        primitives = 12 + len(FLOOR[1])
+
+        def redefine():
+            with self.touch.define(block):
+                self.touch.draw(*FLOOR)
+
+        for change in (lambda: self.touch.draw(*FLOOR), redefine, lambda: hl.calls.hlDeleteObjects([block]),
+                       lambda: hl.calls.hlNewObject(block), self.touch.clear):
+            with self.assertRaises(ZeroDivisionError), self.touch.frame():
+                change()
+                raise ZeroDivisionError
+            with self.touch.frame():
+                pass
+            self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), primitives)
+            with self.touch.frame():
+                self.touch.place(block)
+                self.touch.draw(*FLOOR)
+            self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), primitives)
+
+    def test_a_definition_that_fails_leaves_the_object_as_it_was(self):
+        with self.touch.frame(), self.touch.define() as block:
+            self.touch.body("box", mass=0.1)
+            self.touch.draw(*BLOCK, mode=hl.calls.HL_QUADS)
+        with self.assertRaises(hl.InvalidValueError), self.touch.frame():
+            with self.touch.define(block):
+                self.touch.body("box", mass=0)
+            self.touch.place(block)
+        with self.assertRaises(hl.InvalidValueError), self.touch.frame():
+            with self.touch.define() as other:
+                self.touch.body("box", mass=0)
+        with self.touch.frame():
+            self.touch.place(block)
+        self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), 12)
+        with self.assertRaises(hl.InvalidValueError):
+            self.touch.place(other)
+
     def test_errors_are_exceptions_with_one_line(self):
         wrong = [
             (hl.InvalidValueError, "stiffness", lambda: self.touch.material(stiffness=2)),
             (hl.InvalidValueError, "no quantity 'softness'", lambda: self.touch.material(softness=2)),
             (hl.InvalidValueError, "below the number of vertices", lambda: self.touch.draw(FLOOR[0], [[0, 1, 4]])),
+            (hl.InvalidValueError, "rows of 4, but a primitive of this mode has 3", lambda: self.touch.draw(*BLOCK)),
             (hl.InvalidValueError, "shape (n, 3)", lambda: self.touch.draw([[0, 0]])),
             (hl.InvalidValueError, "must be integers", lambda: self.touch.draw(FLOOR[0], [[0, 1, 2.5]])),
             (hl.InvalidValueError, "shape (4, 4)", lambda: self.touch.place(1, np.eye(3))),

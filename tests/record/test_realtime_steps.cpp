@@ -24,7 +24,7 @@
 #include "touch/touch_session.h"
 #include "touch/touch_step.h"
 
-namespace hl {
+namespace hl::test_realtime_steps {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
@@ -200,7 +200,7 @@ class GuardingDevice final : public Device {
   while (true) pause();
 }
 
-// The thread itself, with its waits, its views for pages and clients, and a supervisor beside it.
+// The thread itself, with its waits, its views for pages and clients, and the thread of the hand beside it.
 TEST_F(RealtimeStepsDeathTest, TheServoThreadOfASessionCallsOnlyItsWait) {
   EXPECT_EXIT(runASession(), testing::ExitedWithCode(0), "");
 }
@@ -218,4 +218,4 @@ TEST_F(RealtimeStepsDeathTest, OneSystemCallInAStepIsFound) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_realtime_steps

@@ -26,7 +26,7 @@
 #include "touch/touch_step.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_recorder {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
@@ -353,9 +353,9 @@ TEST_F(Recording, EachFieldOutOfItsRangeIsRefusedInOneLine) {
       {"viscosity_Ns_m", told([](auto& context) { context.commands.surfaces.viscosity_Ns_m = -1; })},
       {"radius", told([](auto& context) { context.commands.radius_W = 0; })},
       {"workspace", told([](auto& context) { context.commands.workspace.world_per_device = 0; })},
-      {"what ticks are told", told([](auto& context) { context.spring.ledger = static_cast<LedgerMode>(7); })},
+      {"the settings of a tick", told([](auto& context) { context.spring.ledger = static_cast<LedgerMode>(7); })},
       {"no clock", ticks([](auto& message) { message.set_time_ns(0, INT64_MAX); })},
-      {"no clock", ticks([](auto& message) { message.set_time_ns(1, INT64_MIN); })},
+      {"no clock", ticks([](auto& message) { message.set_time_ns(message.time_ns_size() - 1, INT64_MIN); })},
       {"order", steps([](auto& message) { message.set_first(message.first() == 0 ? 0 : 1); })},
       {"order", ticks([](auto& message) { message.set_first(message.first() == 0 ? 0 : 1); })},
       {"order", ticks([](auto& message) { message.set_first(~0ULL); })},
@@ -465,6 +465,14 @@ TEST_F(PageRecording, AMemoryOfTheProxyThatNoSessionHasIsRefused) {
   for (int i = 0; i < numbers; ++i) {
     for (const double wrong : {std::nan(""), HUGE_VAL})
       EXPECT_THROW(taken([&](auto& proxy) { proxy.mutable_memory()->set_numbers(i, wrong); }), Error) << i;
+  }
+  try {
+    taken([&](auto& proxy) { proxy.mutable_memory()->set_numbers(numbers - 1, -1); });
+    ADD_FAILURE() << "a drag below 0 was taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the last target before the recording makes no sense: field_drag_Ns_m"),
+              std::string::npos)
+        << error.what();
   }
   EXPECT_THROW(taken([](auto& proxy) { proxy.mutable_memory()->add_numbers(0); }), Error);
   EXPECT_THROW(taken([](auto& proxy) { proxy.add_adhering(1); }), Error);
@@ -655,4 +663,4 @@ TEST_F(Recording, AWholeSessionOnTheRealClockIsReproduced) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_recorder

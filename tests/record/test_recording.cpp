@@ -20,7 +20,7 @@
 #include "surfaces/iso_surface.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_recording {
 namespace {
 
 class Random {
@@ -688,4 +688,4 @@ TEST_F(RecordingFile, OtherFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_recording

@@ -12,7 +12,7 @@
 #include "record/recording_file.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_replay_device {
 namespace {
 
 constexpr int kSteps = 500;
@@ -128,4 +128,4 @@ TEST_F(Replayed, WhatCanNotBeReplayedIsToldInOneLine) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_replay_device

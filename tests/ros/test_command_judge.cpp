@@ -8,7 +8,7 @@
 
 #include "device/device_models.h"
 
-namespace hl {
+namespace hl::test_command_judge {
 namespace {
 
 constexpr std::int64_t kNow_ns = 9'000'000'000;
@@ -67,10 +67,10 @@ TEST(CommandJudge, WhatItWasOnItsWayItCountsLess) {
 
 // No time of a broken clock makes it count for longer, nor does its arithmetic overflow.
 TEST(CommandJudge, NoClockMakesACommandCountLonger) {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max(),
-                         kLeast = std::numeric_limits<std::int64_t>::min();
-  for (const std::int64_t age_ns : {kLeast, std::int64_t{-1}, std::int64_t{0}, kMost}) {
-    for (const std::int64_t arrived_ns : {kLeast, std::int64_t{0}, kNow_ns, kNow_ns + 1, kMost}) {
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max(),
+                         kMin = std::numeric_limits<std::int64_t>::min();
+  for (const std::int64_t age_ns : {kMin, std::int64_t{-1}, std::int64_t{0}, kMax}) {
+    for (const std::int64_t arrived_ns : {kMin, std::int64_t{0}, kNow_ns, kNow_ns + 1, kMax}) {
       CommandJudge judge(device());
       HandCommand command = commandOf(RosInput::kServoCf, {1, 0, 0}, age_ns);
       command.arrived_ns = arrived_ns;
@@ -138,4 +138,4 @@ TEST(CommandJudge, TheEndIsTakenOnce) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_command_judge

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace hl {
+namespace hl::test_hand_motion {
 namespace {
 
 constexpr std::int64_t kBegin_ns = 5'000'000'000;
@@ -89,4 +89,4 @@ TEST(HandMotion, AllOfItIsInTheState) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_hand_motion

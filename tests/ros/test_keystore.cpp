@@ -13,7 +13,7 @@
 #include "ros/pem.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_keystore {
 namespace {
 
 namespace fs = std::filesystem;
@@ -263,4 +263,4 @@ TEST(Governance, WhatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_keystore

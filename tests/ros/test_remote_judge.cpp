@@ -7,7 +7,7 @@
 
 #include "device/device_models.h"
 
-namespace hl {
+namespace hl::test_remote_judge {
 namespace {
 
 constexpr std::int64_t kBegin_ns = 9'000'000'000, kMillisecond_ns = 1'000'000;
@@ -104,4 +104,4 @@ TEST_F(RemoteJudgeTest, WhatCannotBeTrustedChangesNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_remote_judge

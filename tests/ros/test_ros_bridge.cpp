@@ -10,7 +10,7 @@
 #include "touch/session_views.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_ros_bridge {
 namespace {
 
 /// What the test and its link share.
@@ -19,6 +19,7 @@ struct Wire {
   std::vector<RosHandState> states;
   std::deque<HandCommand> commands;
   bool full = false, ended = false;
+  int refusals = 0;  // of starting again
 
   std::vector<RosHandState> told() {
     const std::lock_guard lock(mutex);
@@ -53,6 +54,11 @@ class FakeLink final : public RosLink {
   bool ended() const override {
     const std::lock_guard lock(wire_.mutex);
     return wire_.ended;
+  }
+  bool startAgain() override {
+    const std::lock_guard lock(wire_.mutex);
+    wire_.ended = wire_.refusals-- > 0;
+    return !wire_.ended;
   }
 
  private:
@@ -205,19 +211,32 @@ TEST_F(RosBridgeTest, StatesThatNobodyTakesAreLostAndCounted) {
   test::waitFor([&] { return bridge_.counts().states_lost > 10; });
 }
 
-TEST_F(RosBridgeTest, AProgramThatEndsIsToldAndLetsGo) {
+TEST_F(RosBridgeTest, AProgramThatEndsLetsGoAndIsStartedAgain) {
   test::waitFor([&] {
     say(0, RosInput::kServoCf, {1, 0, 0});
     return forceOf(0).x() > 0;
   });
+  wire_.refusals = 1;
   wire_.set(wire_.ended);
   test::waitFor([&] { return !bridge_.counts().running; });
   test::waitFor([&] { return forceOf(0).isZero(0); });
+  test::waitFor([&] { return bridge_.counts().starts == 1; });
   test::waitFor([&] {
-    const std::lock_guard lock(lines_mutex_);
-    return lines_.size() == 1;
+    say(0, RosInput::kServoCf, {1, 0, 0});
+    return forceOf(0).x() > 0;
   });
+  EXPECT_TRUE(bridge_.counts().running);
+  const std::lock_guard lock(lines_mutex_);
+  EXPECT_EQ(lines_, (std::vector<std::string>{"hl-ros has ended: hands are no topics of ROS 2 until it is there again",
+                                              "hl-ros is there again"}));
+}
+
+TEST_F(RosBridgeTest, AStopDoesNotWaitForAProgramThatIsAway) {
+  wire_.refusals = 1000;
+  wire_.set(wire_.ended);
+  test::waitFor([&] { return !bridge_.counts().running; });
   bridge_.stop();
+  EXPECT_EQ(bridge_.counts().starts, 0u);
 }
 
 TEST(RosHands, AreCalledAsTheirDevices) {
@@ -228,4 +247,4 @@ TEST(RosHands, AreCalledAsTheirDevices) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_ros_bridge

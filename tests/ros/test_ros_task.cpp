@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace hl {
+namespace hl::test_ros_task {
 namespace {
 
 TEST(RosTask, ItsWordsAreReadAgain) {
@@ -90,4 +90,4 @@ TEST(RosTask, TheDomainIsThatOfTheEnvironment) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_ros_task

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace hl {
+namespace hl::test_teleop_clutch {
 namespace {
 
 TeleopSettings scaled(double scale, std::optional<std::uint32_t> button) {
@@ -55,4 +55,4 @@ TEST(TeleopClutch, APlaceThatIsNoNumberLeadsNobody) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_teleop_clutch

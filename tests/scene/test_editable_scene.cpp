@@ -15,7 +15,7 @@
 #include "surfaces/depth_frame.h"
 #include "surfaces/iso_surface.h"
 
-namespace hl {
+namespace hl::test_editable_scene {
 namespace {
 
 std::shared_ptr<const Shape> triangle(double size = 1) {
@@ -100,6 +100,24 @@ TEST(EditableScene, AnyInvertibleMatrixIsARigidPoseOfAStretchedShape) {
       EXPECT_LT((placed.pose.toWorld(placed.shape->model.positions[v]) - expected).norm(), 1e-9 * linear.norm());
       const Vec3 normal = (linear.inverse().transpose() * triangle()->model.normals[v]).normalized();
       EXPECT_LT((placed.pose.turnToWorld(placed.shape->model.normals[v]) - normal).norm(), 1e-6);
+    }
+  }
+}
+
+// Bodies take their boxes, balls and capsules from the bounds: those of a mirrored object are as large.
+TEST(EditableScene, AScaleAlongTheAxesKeepsThemHoweverItIsTurnedAndMirrored) {
+  test::Random random(4);
+  for (int i = 0; i < 200; ++i) {
+    const Placement turned = turn(3 * random.inCube(1).x(), random.inCube(1));
+    const Vec3 scale = i % 2 == 0 ? Vec3(1, 1, 1) : Vec3(Vec3(0.3, 0.4, 0.5) + 0.2 * random.inCube(1));
+    const double handed = (i / 2) % 2 == 0 ? -1 : 1;
+    EditableScene scene(1, {});
+    scene.apply(worldOf({shapeItem(
+        triangle(), {turned.linear * Vec3(handed * scale.x(), scale.y(), scale.z()).asDiagonal(), {1, 2, 3}})}));
+    const PlacedShape& placed = scene.placed()[0];
+    for (std::size_t v = 0; v < 3; ++v) {
+      const Vec3 expected = handed * scale.cwiseProduct(triangle()->model.positions[v]);
+      EXPECT_LT((placed.shape->model.positions[v] - expected).norm(), 1e-9) << i;
     }
   }
 }
@@ -595,4 +613,4 @@ TEST(EditableScene, ABendFollowsTheOneBefore) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_editable_scene

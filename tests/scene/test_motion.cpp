@@ -6,7 +6,7 @@
 
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_motion {
 namespace {
 
 Pose poseOf(const Vec3& turn, const Vec3& origin) {
@@ -73,4 +73,4 @@ TEST(Motion, OnlyRestAtTheWorldIsIdentity) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_motion

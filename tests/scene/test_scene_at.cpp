@@ -7,7 +7,7 @@
 
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_scene_at {
 namespace {
 
 Model randomModel(test::Random& random) {
@@ -181,4 +181,4 @@ TEST(SceneAt, WhatWasReadOfOneSnapshotIsNotTakenForAnother) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_scene_at

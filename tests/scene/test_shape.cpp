@@ -8,7 +8,7 @@
 #include "geometry/queries.h"
 #include "geometry/scenes.h"
 
-namespace hl {
+namespace hl::test_shape {
 namespace {
 
 Model sheet(std::uint32_t cells) {
@@ -117,4 +117,4 @@ TEST(Shape, KeepsTheKindOfItsHierarchy) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_shape

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hl {
+namespace hl::test_split_model {
 namespace {
 
 // A triangle; then a triangle and a segment, with normals.
@@ -59,4 +59,4 @@ TEST(SplitModel, PartsThatDoNotAgreeAreRefused) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_split_model

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace hl {
+namespace hl::test_weld {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -73,4 +73,4 @@ TEST(Weld, EveryElementHasTheVerticesThatItHad) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_weld

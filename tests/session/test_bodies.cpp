@@ -10,7 +10,7 @@
 #include "session/bodies_client.h"
 #include "touch/session_views.h"
 
-namespace hl {
+namespace hl::test_bodies {
 namespace {
 
 using test::addBox;
@@ -237,7 +237,7 @@ TEST_F(SessionBodiesTest, ABodyThatCannotBeMadeRefusesTheFrameAndChangesNothing)
 TEST_F(SessionBodiesTest, ThereAreNoMoreThanTheLimitAllClientsTogether) {
   Client client(server_), other(server_);
   std::vector<Vec3> many;
-  for (std::size_t i = 0; i < kMostBodies; ++i) {
+  for (std::size_t i = 0; i < kMaxBodies; ++i) {
     const double x = static_cast<double>(i % 25), z = static_cast<double>(i / 25);
     many.emplace_back(0.05 * x, 0.5, 0.05 * z);
   }
@@ -266,7 +266,7 @@ TEST_F(SessionBodiesTest, EachOfTheirPartsCounts) {
     for (int i = 0; i < corners; ++i) mesh.add_triangles(mesh.triangles(i) + static_cast<std::uint32_t>(numbers / 3));
     return client.show(frame);
   };
-  EXPECT_EQ(shown(1, kMostBodies / 2 + 1),
+  EXPECT_EQ(shown(1, kMaxBodies / 2 + 1),
             "there are more than 1000 bodies in the world, those of other clients among them");
   EXPECT_EQ(shown(2, 2), "");
 }
@@ -328,7 +328,7 @@ TEST(Bodies, LetTheServosTickAgainWhenTheyHaveGone) {
 }
 
 TEST(Bodies, HaveNoMoreHandsThanAWorldHas) {
-  TouchServer server(makeSnapshot(std::vector<Instance>{}), withDevices(kMostHands + 1));
+  TouchServer server(makeSnapshot(std::vector<Instance>{}), withDevices(kMaxHands + 1));
   server.start();
   Client client(server);
   EXPECT_EQ(client.show(blocksFrame(1, {Vec3(0.5, 0.05, 0)})),
@@ -343,4 +343,4 @@ TEST(Bodies, AreCountedWithTheRoomThatTheirStepNeeds) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_bodies

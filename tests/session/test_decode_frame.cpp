@@ -18,7 +18,7 @@
 #include "surfaces/iso_surface.h"
 #include "surfaces/point_cloud.h"
 
-namespace hl {
+namespace hl::test_decode_frame {
 namespace {
 
 SceneLimits smallLimits() {
@@ -144,7 +144,7 @@ TEST(DecodeFrame, HeightFieldsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(with([](auto& in, auto&) { in.set_vertical_scale(std::numeric_limits<double>::quiet_NaN()); }),
             where + "verticalScale must be from 1e-12 to 1e9");
   EXPECT_EQ(with([](auto& in, auto&) { in.set_values(2, std::numeric_limits<float>::quiet_NaN()); }),
-            where + "all its samples are missing");
+            where + "its samples are missing, or lack neighbours: there is nothing to touch");
   EXPECT_EQ(
       with([](auto&, auto& in) { in.add_vertices(1); }),
       "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
@@ -236,7 +236,8 @@ TEST(DecodeFrame, CloudsBecomeTheirPoints) {
     EXPECT_TRUE(cloud.surfels());
     ASSERT_TRUE(cloud.hasColours());
     EXPECT_EQ(cloud.points()->colour(0), (Rgb{10, 20, 30}));
-    EXPECT_EQ(cloud.points()->colour(1), (Rgb{11, 21, 31}));
+    ASSERT_EQ(cloud.points()->blocks(), 2U);
+    EXPECT_EQ(cloud.points()->colour(CloudPoints::kPerBlock), (Rgb{11, 21, 31}));
     EXPECT_LT((cloud.trueNormal(0, {}) - Vec3::UnitY()).norm(), 1e-4);
     EXPECT_GE(memory.used_bytes(), cloud.points()->bytes());
   }
@@ -357,7 +358,7 @@ TEST(DecodeFrame, ImplicitSurfacesAreWhatTheySay) {
   EXPECT_EQ(shape.source->siteOf(Vec3(0, 1, 0)), Site::kMatter);
   EXPECT_LE(shape.source->error_m(), 1.1e-5);
   implicit.mutable_expression()->mutable_sphere()->set_radius(-1);
-  EXPECT_EQ(refusalOf(frame), "world.items[0].primitives.implicit: sphere.radius must be from 1e-9 to 1e6 m");
+  EXPECT_EQ(refusalOf(frame), "world.items[0].primitives.implicit: sphere.radius must be from 1e-9 to 1e6");
 }
 
 TEST(DecodeFrame, VolumesThatMakeNoSenseAreRefused) {
@@ -716,4 +717,4 @@ TEST(DecodeFrame, ATimeThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_decode_frame

@@ -8,7 +8,7 @@
 
 #include "session/state_messages.h"
 
-namespace hl {
+namespace hl::test_ending_counts {
 namespace {
 
 // Of each ending another count: 1 of the first one, 2 of the next, ...
@@ -56,4 +56,4 @@ TEST(EndingCounts, TheMessageHasAFieldOfItsNameAndNumberForEachEnding) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_ending_counts

@@ -14,7 +14,7 @@
 #include "session/touch_server.h"
 #include "take_replies.h"
 
-namespace hl {
+namespace hl::test_iso_change {
 namespace {
 
 class IsoChangeTest : public testing::Test {
@@ -139,4 +139,4 @@ TEST_F(IsoChangeTest, TheForceStaysBoundedWhileTheValueSweeps) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_iso_change

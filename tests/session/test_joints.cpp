@@ -14,7 +14,7 @@
 #include "temp_folder.h"
 #include "touch/body_world.h"
 
-namespace hl {
+namespace hl::test_joints {
 namespace {
 
 using test::addMatrix;
@@ -282,4 +282,4 @@ TEST(SessionJoints, AreCountedWithTheRoomThatTheirStepNeeds) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_joints

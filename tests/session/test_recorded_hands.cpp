@@ -12,7 +12,7 @@
 #include "session/bodies_client.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_recorded_hands {
 namespace {
 
 constexpr std::size_t kHands = 3;
@@ -125,8 +125,8 @@ TEST_F(RecordedHands, AreOfOneSession) {
     if (block.has_start()) block.mutable_start()->set_begin_unix_ms(block.start().begin_unix_ms() + 60'000);
   }
   EXPECT_NE(refusalOf({files()[0], other}).find("of another session"), std::string::npos);
-  EXPECT_EQ(refusalOf({files()[0], path_}), path_ + ": can not be read");
+  EXPECT_EQ(refusalOf({files()[0], path_}), path_ + ": there is no such file");
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_recorded_hands

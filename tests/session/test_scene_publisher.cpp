@@ -12,7 +12,7 @@
 #include "device/open_device.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_scene_publisher {
 namespace {
 
 proto::Frame frameOf(std::uint64_t number) {
@@ -403,12 +403,12 @@ TEST(StalledServo, ScenesOfAllClientsGoOnAndTheNewestIsTakenAfterwards) { showWh
 TEST(StalledServo, ADeviceThatKeepsItsFirstReadHoldsNoScene) { showWhileTheServoStands(true); }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_scene_publisher
 
 namespace {
 
 void* allocated(std::size_t size, std::size_t alignment) {
-  if (hl::failsNow()) throw std::bad_alloc();
+  if (hl::test_scene_publisher::failsNow()) throw std::bad_alloc();
   void* const memory = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;

@@ -12,7 +12,7 @@
 #include "touch/session_views.h"
 #include "wait_for.h"
 
-namespace hl::test {
+namespace hl::test::test_several_devices {
 namespace {
 
 std::shared_ptr<const Snapshot> emptyScene() { return makeSnapshot(std::vector<Instance>{}); }
@@ -241,4 +241,4 @@ TEST(FaultGroup, AnotherOnesFaultIsSeenAndTheOwnIsNot) {
 }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_several_devices

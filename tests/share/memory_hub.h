@@ -39,6 +39,15 @@ class MemoryHub {
       const std::lock_guard lock(hub_.mutex_);
       return ended_;
     }
+    /// As one that joins.
+    bool startAgain() override {
+      hub_.leave(*this);
+      come_.clear();
+      items_.clear();
+      ended_ = false;
+      hub_.join(*this);
+      return true;
+    }
 
    private:
     friend class MemoryHub;
@@ -54,9 +63,11 @@ class MemoryHub {
     const std::lock_guard lock(mutex_);
     std::erase_if(links_, [&](const Link* link) { return link->id_ == id; });
   }
+  /// Its program ends, and what it has kept for others goes.
   void end(ServerId id) {
     const std::lock_guard lock(mutex_);
     for (Link* link : links_) link->ended_ |= link->id_ == id;
+    std::erase_if(links_, [&](const Link* link) { return link->id_ == id; });
     changed_.notify_all();
   }
 

@@ -11,7 +11,7 @@
 #include "share/item_content.h"
 #include "share/share_messages.h"
 
-namespace hl::test {
+namespace hl::test::test_item_content {
 namespace {
 
 std::shared_ptr<const Snapshot> sceneOf(const std::string& name) {
@@ -103,4 +103,4 @@ TEST(ItemReaderTest, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_item_content

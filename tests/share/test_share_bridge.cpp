@@ -7,7 +7,7 @@
 #include "shared_server.h"
 #include "wait_for.h"
 
-namespace hl::test {
+namespace hl::test::test_share_bridge {
 namespace {
 
 Vec3 placeOf(const Instance& instance) { return instance.shownAt(monotonicNow_ns()).origin; }
@@ -109,9 +109,28 @@ TEST_F(SharedServers, WhatIsThereStaysWhenTheLinkHasEnded) {
   const auto a = add(1, "anna", floorAndBlock()), b = add(2, "bert", nothing());
   waitForBoth(*b);
   hub.end(2);
-  waitFor([&] { return !b->bridge.view().ended.empty(); });
-  EXPECT_TRUE(b->hasTold("hl-share has ended"));
+  waitFor([&] { return b->hasTold("hl-share has ended"); });
   EXPECT_TRUE(b->other(kBlockThere).has_value());
+  waitFor([&] { return b->hasTold("hl-share is there again"); });
+  EXPECT_EQ(b->bridge.view().ended, "");
+  EXPECT_TRUE(b->other(kBlockThere).has_value());
+  EXPECT_FALSE(b->other(kBlockThere)->movesAsBody()) << "its owner was there all the time";
+}
+
+// What it had told is told anew, so that who joins later has it, and what happened meanwhile too.
+TEST_F(SharedServers, WhatAServerHasIsToldAgainWhenTheLinkIs) {
+  const auto a = add(1, "anna", nothing()), b = add(2, "bert", nothing());
+  BodiesClient client(a->touch);
+  EXPECT_EQ(client.show(blocksFrame(1, {Vec3(0.3, 0.021, 0.3)})), "");
+  waitForBoth(*b);
+  hub.end(1);
+  EXPECT_EQ(client.show(blocksFrame(2, {Vec3(0.3, 0.021, 0.3), Vec3(-0.3, 0.021, 0.3)})), "");
+  waitFor([&] { return a->hasTold("hl-share is there again"); });
+  const auto c = add(3, "cleo", nothing());
+  for (SharedServer* const other : {b.get(), c.get()}) {
+    waitFor([&] { return other->scene()->instances.size() == 3; });
+    waitFor([&] { return !other->other(1)->movesAsBody() && !other->other(2)->movesAsBody(); });
+  }
 }
 
 TEST_F(SharedServers, ObjectsOfAClientComeAndGo) {
@@ -128,4 +147,4 @@ TEST_F(SharedServers, ObjectsOfAClientComeAndGo) {
 }
 
 }  // namespace
-}  // namespace hl::test
+}  // namespace hl::test::test_share_bridge

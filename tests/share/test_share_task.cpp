@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hl {
+namespace hl::test_share_task {
 namespace {
 
 TEST(ShareTask, ItsWordsAreReadAgain) {
@@ -87,9 +87,9 @@ TEST(ShareTask, OtherBytesAreNoPacket) {
   std::string lane = good;
   lane[0] = 3;
   EXPECT_FALSE(sharePacketOf(lane));
-  EXPECT_TRUE(sharePacketOf(bytesOf({Lane::kItems, 1, std::string(kMostPacket_bytes, 'x')})));
-  EXPECT_FALSE(sharePacketOf(bytesOf({Lane::kItems, 1, std::string(kMostPacket_bytes + 1, 'x')})));
+  EXPECT_TRUE(sharePacketOf(bytesOf({Lane::kItems, 1, std::string(kMaxPacket_bytes, 'x')})));
+  EXPECT_FALSE(sharePacketOf(bytesOf({Lane::kItems, 1, std::string(kMaxPacket_bytes + 1, 'x')})));
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_share_task

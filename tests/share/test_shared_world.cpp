@@ -8,7 +8,7 @@
 
 #include "share/virtual_world.h"
 
-namespace hl::test {
+namespace hl::test::test_shared_world {
 
 namespace {
 
@@ -163,9 +163,9 @@ TEST(SharedWorld, WhatIsDeletedTakesNoRoomOfWhatComes) {
   const LocalItem cube{contentOf(*a.world, "cube"), motionAt({0, 0, 0})};
   for (ItemId first = 1; first <= 4; ++first) {
     a.local.clear();
-    for (ItemId i = 0; i < SharedWorld::kMostItems; ++i) a.local[first + 4 * i] = cube;
+    for (ItemId i = 0; i < SharedWorld::kMaxItems; ++i) a.local[first + 4 * i] = cube;
     net.run(0.3);
-    ASSERT_EQ(b.world->replicas(net.nowOf(b)).size(), SharedWorld::kMostItems) << first;
+    ASSERT_EQ(b.world->replicas(net.nowOf(b)).size(), SharedWorld::kMaxItems) << first;
     EXPECT_EQ(b.world->counts(net.nowOf(b)).left_out, 0U);
   }
 }
@@ -176,11 +176,11 @@ TEST(SharedWorld, WhatItHasNoRoomForIsLeftOutAndTheRestStays) {
   for (ServerId id = 7; id < 10; ++id) {
     auto& one = net.add("server" + std::to_string(id), id);
     const LocalItem cube{contentOf(*one.world, "cube"), motionAt({0, 0, 0})};
-    for (ItemId i = 1; i <= SharedWorld::kMostItems; ++i) one.local[id * 100'000 + i] = cube;
+    for (ItemId i = 1; i <= SharedWorld::kMaxItems; ++i) one.local[id * 100'000 + i] = cube;
   }
   net.run(0.3);
-  EXPECT_EQ(b.world->replicas(net.nowOf(b)).size(), 2 * SharedWorld::kMostItems);
-  EXPECT_EQ(b.world->counts(net.nowOf(b)).left_out, SharedWorld::kMostItems);
+  EXPECT_EQ(b.world->replicas(net.nowOf(b)).size(), 2 * SharedWorld::kMaxItems);
+  EXPECT_EQ(b.world->counts(net.nowOf(b)).left_out, SharedWorld::kMaxItems);
 }
 
 // A server writes its contents before it tells of the objects that have them.
@@ -307,6 +307,21 @@ TEST(SharedWorld, HalvesThatWereCutAgreeWhenTheyMeet) {
   EXPECT_NE(b.world->replicas(net.nowOf(b)).at(0).own, c.world->replicas(net.nowOf(c)).at(0).own);
 }
 
+TEST(SharedWorld, OthersKeepWhatTheyHaveWhenTheOwnLinkWasAway) {
+  VirtualNet net({20 * kMs, 5 * kMs, 0.01});
+  auto& a = net.add("a", 3);
+  auto& b = net.add("b", 5);
+  a.local[1] = {contentOf(*a.world, "cube"), motionAt({0, 0, 0})};
+  net.run(2);
+  const std::int64_t now_ns = net.nowOf(b), later_ns = now_ns + 10'000 * kMs;
+  b.world->linkAgain(now_ns, later_ns);
+  EXPECT_TRUE(b.world->peers().isThere(3, later_ns));
+  b.world->step(later_ns);
+  EXPECT_FALSE(b.world->replicas(later_ns).at(0).own);
+  b.world->step(later_ns + Peers::kLease_ns);
+  EXPECT_TRUE(b.world->replicas(later_ns + Peers::kLease_ns).at(0).own) << "it is not heard again";
+}
+
 TEST(SharedWorld, HandsAreThereAndGo) {
   VirtualNet net({20 * kMs, 5 * kMs, 0.01});
   auto& a = net.add("a", 3);
@@ -424,4 +439,4 @@ TEST(SharedWorld, OwnersAreLostAThousandTimes) {
 
 }  // namespace
 
-}  // namespace hl::test
+}  // namespace hl::test::test_shared_world

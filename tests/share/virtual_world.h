@@ -108,7 +108,7 @@ class VirtualNet {
     flights_.push({time_ns, ++number_, to.self.id, from.self.id, packet});
   }
   bool send(Node& from, const SharePacket& packet) {
-    if (packet.bytes.size() > kMostPacket_bytes) throw std::runtime_error("too large a packet");
+    if (packet.bytes.size() > kMaxPacket_bytes) throw std::runtime_error("too large a packet");
     if (packet.lane == Lane::kItems) from.items[packet.key] = packet.bytes;
     for (const auto& to : nodes_) {
       if (to.get() == &from || (packet.lane == Lane::kInbox && to->self.id != packet.key)) continue;

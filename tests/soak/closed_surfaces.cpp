@@ -74,9 +74,9 @@ ClosedSurface drawSolidOf(test::Random& random, const Source& source) {
 
 // Of more triangles a proxy that touches many at once takes milliseconds a tick.
 Source drawModestSolid(test::Random& random) {
-  constexpr std::uint64_t kMostTriangles = 50'000;
+  constexpr std::uint64_t kMaxTriangles = 50'000;
   Source source = drawSolid(random);
-  while (source->triangles() > kMostTriangles) source = drawSolid(random);
+  while (source->triangles() > kMaxTriangles) source = drawSolid(random);
   return source;
 }
 

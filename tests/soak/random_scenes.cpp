@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scene/snapshot.h"
+#include "soak/add_triangle.h"
 
 namespace hl::soak {
 
@@ -17,12 +18,6 @@ struct Drawing {
   Model model;
   std::size_t closed = 0;  // the first so many triangles make closed surfaces
 };
-
-void addTriangle(Model& model, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto first = static_cast<std::uint32_t>(model.positions.size());
-  model.positions.insert(model.positions.end(), {a, b, c});
-  model.triangles.push_back({first, first + 1, first + 2});
-}
 
 void addQuad(Model& model, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   addTriangle(model, a, b, c);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "scene/scene_model.h"
+#include "soak/primitives_of.h"
 #include "surfaces/clouds.h"
 #include "surfaces/expressions.h"
 #include "surfaces/fields.h"
@@ -58,20 +59,6 @@ bool closed(const std::vector<Primitive>& primitives) {
   });
 }
 
-// As the world leaves out what is degenerate, so does the judge.
-std::vector<Primitive> primitivesOf(const Model& model) {
-  const auto& at = model.positions;
-  std::vector<Primitive> primitives;
-  Primitive made;
-  for (const auto& t : model.triangles) {
-    if (makeTriangle(at[t[0]], at[t[1]], at[t[2]], 0, made)) primitives.push_back(made);
-  }
-  for (const auto p : model.points) {
-    if (makePoint(at[p], 0, made)) primitives.push_back(made);
-  }
-  return primitives;
-}
-
 void keepPrimitives(const Model& model, RandomScene& scene) {
   scene.primitives = primitivesOf(model);
   if (!model.points.empty() || !closed(scene.primitives)) return;
@@ -119,7 +106,7 @@ Source drawSolid(test::Random& random) {
 namespace {
 
 RandomScene drawAnySurface(test::Random& random) {
-  constexpr std::size_t kMostPrimitives = 8000;
+  constexpr std::size_t kMaxPrimitives = 8000;
   RandomScene scene;
   Source source;
   Model mesh;
@@ -127,7 +114,7 @@ RandomScene drawAnySurface(test::Random& random) {
   scene.what = kind.name;
   do {
     source = kind.draw(random);
-    if (source->triangles() <= kMostPrimitives) mesh = modelOf(*source);
+    if (source->triangles() <= kMaxPrimitives) mesh = modelOf(*source);
   } while (mesh.elements() == 0);
   keepPrimitives(mesh, scene);
   drawRadius(random, source->bounds(), scene);
@@ -149,8 +136,8 @@ RandomScene drawAnySurface(test::Random& random) {
 
 // Far smaller a proxy knows too little of where it is; far larger, fingers would be where none may be.
 bool isFelt(const RandomScene& scene) {
-  constexpr double kLeastPart = 1e-7, kMost_m = 1e5;
-  return scene.settings.radius > kLeastPart * scene.snapshot->extent && scene.settings.radius < kMost_m;
+  constexpr double kMinPart = 1e-7, kMax_m = 1e5;
+  return scene.settings.radius > kMinPart * scene.snapshot->extent && scene.settings.radius < kMax_m;
 }
 
 }  // namespace

@@ -5,17 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "soak/add_triangle.h"
+
 namespace hl::soak {
 
 namespace {
 
 constexpr int kOutside = -1;
-
-void addTriangle(Model& model, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto first = static_cast<std::uint32_t>(model.positions.size());
-  model.positions.insert(model.positions.end(), {a, b, c});
-  model.triangles.push_back({first, first + 1, first + 2});
-}
 
 // A parallelogram in n x n cells, each cut along one or the other diagonal.
 void addSheet(test::Random& random, Model& model, const Vec3& corner, const Vec3& u, const Vec3& v, int n) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "soak/primitives_of.h"
+
 namespace hl::soak {
 
 namespace {
@@ -43,23 +45,6 @@ Placement choosePlacement(test::Random& random) {
   const Mat3 turned = Eigen::AngleAxisd(random.uniform(0, M_PI), random.direction()).toRotationMatrix();
   const double away = random.below(2) == 0 ? 0 : std::pow(10.0, random.uniform(0, 4));
   return {scale * kUsualRadius * turned, scale * kUsualRadius * random.inCube(away)};
-}
-
-// As a shape leaves out what is degenerate, so does the judge.
-std::vector<Primitive> primitivesOf(const Model& model) {
-  std::vector<Primitive> primitives;
-  Primitive made;
-  const auto& at = model.positions;
-  for (const auto& t : model.triangles) {
-    if (makeTriangle(at[t[0]], at[t[1]], at[t[2]], 0, made)) primitives.push_back(made);
-  }
-  for (const auto& s : model.segments) {
-    if (makeSegment(at[s[0]], at[s[1]], 0, made)) primitives.push_back(made);
-  }
-  for (const auto p : model.points) {
-    if (makePoint(at[p], 0, made)) primitives.push_back(made);
-  }
-  return primitives;
 }
 
 Rooms makeRooms(test::Random& random, std::size_t kind) {

@@ -28,7 +28,7 @@ inline NurbsPatch turned(const std::vector<ControlPoint>& profile, std::uint32_t
 }
 
 /// Around the origin; its poles are sides without length.
-inline NurbsPatch sphere(double radius) {
+inline NurbsPatch spherePatch(double radius) {
   const double r = radius, w = std::sqrt(0.5);
   return turned({{{0, -r, 0}, 1}, {{r, -r, 0}, w}, {{r, 0, 0}, 1}, {{r, r, 0}, w}, {{0, r, 0}, 1}}, 3,
                 {0, 0, 0, 1, 1, 2, 2, 2});

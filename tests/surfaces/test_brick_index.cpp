@@ -10,7 +10,7 @@
 #include "index_judge.h"
 #include "volumes.h"
 
-namespace hl {
+namespace hl::test_brick_index {
 namespace {
 
 using test::Random;
@@ -59,4 +59,4 @@ TEST(BrickIndex, AQueryLooksAtFewCells) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_brick_index

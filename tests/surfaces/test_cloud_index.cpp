@@ -8,7 +8,7 @@
 #include "geometry/queries.h"
 #include "index_judge.h"
 
-namespace hl {
+namespace hl::test_cloud_index {
 namespace {
 
 using test::Random;
@@ -49,4 +49,4 @@ TEST(CloudIndex, AQueryLooksAtFewPoints) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_cloud_index

@@ -9,7 +9,7 @@
 #include "proxy/proxy.h"
 #include "scene/scene_model.h"
 
-namespace hl {
+namespace hl::test_cloud_touch {
 namespace {
 
 constexpr double kRadius = 1e-3;
@@ -118,4 +118,4 @@ TEST(CloudTouch, NothingFallsThroughSurfels) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_cloud_touch

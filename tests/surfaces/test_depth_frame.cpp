@@ -13,7 +13,7 @@
 #include "geometry/queries.h"
 #include "index_judge.h"
 
-namespace hl {
+namespace hl::test_depth_frame {
 namespace {
 
 using test::cameraFor;
@@ -80,6 +80,25 @@ TEST(DepthFrame, MatterIsBehindTheSurface) {
   EXPECT_EQ(frame->siteOf({0.1, 0.1, -0.5}), Site::kBoundary);
 }
 
+// On a steep surface as on a flat one: just before a triangle there is none, just behind it there is.
+TEST(DepthFrame, MatterBeginsAtTheTriangles) {
+  Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const auto frame = randomFrame(random);
+    for (int k = 0; k < 50; ++k) {
+      const auto id = static_cast<ElementId>(random.uniform(0, 1) * static_cast<double>(frame->count()));
+      if (!frame->cells().exists(cellOf(id, frame->image().pixels.columns()))) continue;
+      const std::array<Vec3, 3> corner = frame->corners(id);
+      const double a = random.uniform(0.01, 0.5), b = random.uniform(0.01, 0.49);
+      const Vec3 place = corner[0] + a * (corner[1] - corner[0]) + b * (corner[2] - corner[0]);
+      constexpr double kNear = 1e-6;  // of the depth
+      const Vec3 ray = place - frame->frame().origin;
+      ASSERT_EQ(frame->siteOf(place - kNear * ray), Site::kOpen) << i;
+      ASSERT_EQ(frame->siteOf(place + kNear * ray), Site::kMatter) << i;
+    }
+  }
+}
+
 TEST(DepthFrame, SmoothingFollowsSlowlyAndJumpsAtSteps) {
   const DepthCamera camera = cameraFor(2, 2);
   const auto now = [](std::vector<std::uint16_t> depths) { return test::gridOf(2, 2, depths); };
@@ -99,10 +118,10 @@ TEST(DepthFrame, AMissingPixelIsHeldForAQuarterOfASecond) {
   const auto full = test::gridOf<std::uint16_t>(2, 2, {1000, 1000, 1000, 1000});
   const auto hole = test::gridOf<std::uint16_t>(2, 2, {1000, 0, 1000, 1000});
   auto image = smoothed(*full, 1e-3, camera, nullptr, 0.5);
-  for (int i = 1; i <= 2 * kMostHeld; ++i) {
+  for (int i = 1; i <= 2 * kMaxHeld; ++i) {
     image = smoothed(*hole, 1e-3, camera, image.get(), 0.5);
-    EXPECT_EQ(image->pixels.at(1, 0) > 0, i <= kMostHeld) << i;
-    EXPECT_EQ(image->tiles.triangles(), i <= kMostHeld ? 2U : 1U);
+    EXPECT_EQ(image->pixels.at(1, 0) > 0, i <= kMaxHeld) << i;
+    EXPECT_EQ(image->tiles.triangles(), i <= kMaxHeld ? 2U : 1U);
   }
   image = smoothed(*full, 1e-3, camera, image.get(), 0.5);
   image = smoothed(*hole, 1e-3, camera, image.get(), 0.5);
@@ -151,4 +170,4 @@ TEST(DepthFrame, TexelsLieOnPixels) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_depth_frame

@@ -13,7 +13,7 @@
 #include "instruction_sets.h"
 #include "surfaces/depth_camera.h"
 
-namespace hl {
+namespace hl::test_depth_rows {
 namespace {
 
 using test::Random;
@@ -107,7 +107,7 @@ std::size_t boundSlowly(const CellBand& band, const DepthCamera& camera, std::si
 TEST(DepthRows, TilesAreBoundedAsTheirTriangles) {
   Random random(3);
   const DepthCamera camera{1, 1, 0, 0, 0.015};
-  for (const std::size_t side : {std::size_t{1}, std::size_t{8}, kMostSide}) {
+  for (const std::size_t side : {std::size_t{1}, std::size_t{8}, kMaxSide}) {
     for (std::size_t columns = 2; columns < 150; columns += columns < 40 ? 1 : 13) {
       const auto rows = static_cast<std::size_t>(1 + random.below(8));
       const std::vector<float> depths = randomDepths(random, columns * (rows + 1));
@@ -127,4 +127,4 @@ TEST(DepthRows, TilesAreBoundedAsTheirTriangles) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_depth_rows

@@ -6,10 +6,11 @@
 
 #include "cases.h"
 #include "fields.h"
+#include "proxy/leave_matter.h"
 #include "proxy/proxy.h"
 #include "surfaces/depth_frame.h"
 
-namespace hl {
+namespace hl::test_depth_touch {
 namespace {
 
 constexpr std::uint32_t kColumns = 80, kRows = 60;
@@ -88,6 +89,28 @@ TEST(DepthTouch, TheProxyStaysOnTheSideOfTheCamera) {
   EXPECT_EQ(behind, 0);
 }
 
+// Behind a wall, as it went around its rim, with a finger that goes on into it: the wall comes nearer than the radius.
+TEST(DepthTouch, WhatIsBehindTheSurfaceStaysThere) {
+  ProxySettings settings;
+  settings.radius = 0.002;
+  const auto wall = [](float depth_m) {
+    return test::gridOf(kColumns, kRows, std::vector<float>(std::size_t{kColumns} * kRows, 1e3F * depth_m));
+  };
+  for (const Vec3& ahead : {Vec3(0, 0, -0.001), Vec3(0.001, 0, -0.001), Vec3(0, 0, 0), Vec3(0, 0.003, 0.001)}) {
+    Shown shown;
+    shown.show(*wall(0.5F), 0);
+    ProxyState state;
+    state.free = true;
+    state.position = Vec3(0.01, 0.02, -0.503);
+    tick(state, shown.snapshot(), settings, state.position);
+    ASSERT_EQ(state.within.size(), 1U);
+    shown.show(*wall(0.502F), 0);
+    leaveMatter(state, shown.snapshot(), settings, state.position + ahead);
+    EXPECT_LT(state.position.z(), -0.502 - 0.9999 * settings.radius);
+    EXPECT_GT(state.position.z(), -0.52);
+  }
+}
+
 // A still wall of noise as of a camera half a metre away, under a ball that is larger than its pixels: at rest.
 TEST(DepthTouch, NoiseAtRestIsHardlyFelt) {
   std::mt19937 random(4);
@@ -119,4 +142,4 @@ TEST(DepthTouch, NoiseAtRestIsHardlyFelt) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_depth_touch

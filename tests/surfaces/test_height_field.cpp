@@ -9,7 +9,7 @@
 #include "cases.h"
 #include "fields.h"
 
-namespace hl {
+namespace hl::test_height_field {
 namespace {
 
 using test::Random;
@@ -171,7 +171,9 @@ TEST(HeightField, WhatCannotBeAFieldIsRefused) {
     EXPECT_THROW(HeightField(grid, test::uprightFrame(bad, 1)), Error) << bad;
   }
   EXPECT_THROW(HeightField(grid, test::uprightFrame(1, 1e10)), Error);
-  EXPECT_THROW(HeightField(grid, test::uprightFrame(1e-7, 1)), Error);
+  const HeightField steep(grid, test::uprightFrame(1e-7, 1));
+  EXPECT_THROW(steep.makeIndex(), Error);
+  EXPECT_NO_THROW(steep.placed(Vec3(1, 1e-6, 1).asDiagonal(), Vec3::Zero())->makeIndex());
   EXPECT_THROW(HeightField(test::gridOf<float>(2, 2, {0, 1, 2, 3e30F}), test::uprightFrame(1, 1)), Error);
 }
 
@@ -186,4 +188,4 @@ TEST(HeightField, AFieldOfGapsHasNoTriangles) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_height_field

@@ -10,7 +10,7 @@
 #include "geometry/queries.h"
 #include "index_judge.h"
 
-namespace hl {
+namespace hl::test_height_index {
 namespace {
 
 using test::Random;
@@ -66,4 +66,4 @@ TEST(HeightIndex, AQueryLooksAtFewSlabs) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_height_index

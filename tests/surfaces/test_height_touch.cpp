@@ -12,7 +12,7 @@
 #include "scene/bump_gain.h"
 #include "scene/snapshot.h"
 
-namespace hl {
+namespace hl::test_height_touch {
 namespace {
 
 std::shared_ptr<const Snapshot> sceneOf(std::shared_ptr<const Shape> shape, const Pose& pose = {}) {
@@ -288,4 +288,4 @@ TEST(HeightTouch, TicksAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_height_touch

@@ -8,7 +8,7 @@
 #include "expressions.h"
 #include "surfaces/implicit/implicit_function.h"
 
-namespace hl {
+namespace hl::test_implicit_function {
 namespace {
 
 double valueAt(const Expression& expression, const Vec3& p) { return ImplicitFunction(expression).at(p); }
@@ -145,10 +145,10 @@ TEST(Expression, RefusesWhatCannotBeAndSaysWhere) {
     return "";
   };
   using K = ExpressionKind;
-  EXPECT_EQ(refusal(test::sphere(0)), "sphere.radius must be from 1e-9 to 1e6 m");
-  EXPECT_EQ(refusal(test::sphere(NAN)), "sphere.radius must be from 1e-9 to 1e6 m");
+  EXPECT_EQ(refusal(test::sphere(0)), "sphere.radius must be from 1e-9 to 1e6");
+  EXPECT_EQ(refusal(test::sphere(NAN)), "sphere.radius must be from 1e-9 to 1e6");
   EXPECT_EQ(refusal(test::of(K::kUnion, {test::sphere(1), test::box(Vec3(1, -1, 1))})),
-            "union.of[1].box.size must be from 1e-9 to 1e6 m");
+            "union.of[1].box.size must be from 1e-9 to 1e6");
   EXPECT_EQ(refusal(test::torus(1, 1)), "torus.tube must be less than its radius");
   EXPECT_EQ(refusal(test::of(K::kUnion, {})), "union.of must be a list of expressions");
   EXPECT_EQ(refusal(test::of(K::kDifference, {})), "difference.of must be a list of expressions");
@@ -164,4 +164,4 @@ TEST(Expression, RefusesWhatCannotBeAndSaysWhere) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_implicit_function

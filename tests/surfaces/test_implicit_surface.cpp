@@ -13,7 +13,7 @@
 #include "surfaces/implicit/implicit_index.h"
 #include "surfaces/implicit/sheet_list.h"
 
-namespace hl {
+namespace hl::test_implicit_surface {
 namespace {
 
 using K = ExpressionKind;
@@ -156,6 +156,37 @@ TEST(ImplicitSurface, TrianglesAreWithinTheStatedError) {
   EXPECT_GT(surfaces, 3);
 }
 
+bool isKept(const Expression& expression, double error_m) {
+  try {
+    const SheetList list({expression, {}, error_m});
+    return list.error_m <= (1 + 1e-6) * error_m;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// The sheets of the box look out of the capsule by so little that only boxes as small as a cell prove it of some.
+TEST(ImplicitSurface, ABoxThatJustLooksOutOfACapsuleIsKept) {
+  Expression box = test::box(Vec3(65.42323852184755, 20.044731430524514, 33.80604329786732));
+  box.axis = Vec3(0.7744488483540374, 0.5329830646314784, -0.3397358350394477);
+  box.degrees = -63.03057497149619;
+  Expression whole = test::of(K::kUnion, {box, test::rod(K::kCapsule, 41.813604233269594, 14.930482072592154)});
+  whole.axis = Vec3(-1.1056878881008791, -0.5460374360907722, -0.3955944754292397);
+  whole.degrees = 19.27652608839128;
+  whole.place = Vec3(12.998356876669137, -37.17047428116749, -1.8453245289256324);
+  whole.scale = 2.3583436739929136;
+  EXPECT_TRUE(isKept(whole, 0.013951248759856823));
+}
+
+TEST(ImplicitSurface, TellsItsCellsAndItsErrorAsTheyArePlaced) {
+  const auto surface = test::surfaceOf(test::torus(3, 1), 0.01);
+  const auto placed = surface->placed(0.005 * Mat3::Identity(), Vec3::Zero());
+  const auto& small = dynamic_cast<const ImplicitSurface&>(*placed);
+  EXPECT_NEAR(small.steps()[0], 0.005 * surface->steps()[0], 1e-12);
+  EXPECT_NEAR(small.steps()[1], 0.005 * surface->steps()[1], 1e-12);
+  EXPECT_NEAR(small.error_m(), 0.005 * surface->error_m(), 1e-12);
+}
+
 TEST(ImplicitSurface, RefusesWhatItCannotKeep) {
   const auto refusal = [](const Expression& expression, double error_m, std::optional<Box> bounds = {}) -> std::string {
     try {
@@ -165,10 +196,14 @@ TEST(ImplicitSurface, RefusesWhatItCannotKeep) {
     }
     return "";
   };
-  EXPECT_NE(refusal(test::sphere(1e4), 1e-9).find("too sharp, too thin or too large"), std::string::npos);
+  EXPECT_NE(
+      refusal(test::sphere(1e4), 1e-9)
+          .find(", in its own lengths before transform and units, its surface is too sharp, too thin or too large "
+                "for an error of 1e-09: "),
+      std::string::npos);
   EXPECT_NE(refusal(test::gyroid(1, 0), 1e-3).find("it has no end"), std::string::npos);
-  EXPECT_EQ(refusal(test::sphere(1), 0), "error must be from 1e-9 to 1 m");
-  EXPECT_EQ(refusal(test::sphere(1), NAN), "error must be from 1e-9 to 1 m");
+  EXPECT_EQ(refusal(test::sphere(1), 0), "error must be from 1e-9 to 1");
+  EXPECT_EQ(refusal(test::sphere(1), NAN), "error must be from 1e-9 to 1");
   EXPECT_EQ(refusal(test::sphere(1, Vec3(5, 0, 0)), 1e-3, test::cube(1)), "there is no surface within its bounds");
   EXPECT_NE(refusal(test::sphere(1), 1e-3, Box{Vec3::Ones(), Vec3::Zero()}).find("bounds must be a box"),
             std::string::npos);
@@ -313,4 +348,4 @@ TEST(ImplicitTouch, TicksAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_implicit_surface

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "volumes.h"
 
-namespace hl {
+namespace hl::test_iso_surface {
 namespace {
 
 using test::Random;
@@ -140,6 +140,43 @@ TEST(IsoSurface, ASphereIsWithinTheSquareOfItsSpacing) {
   }
 }
 
+// The bounds and the number of triangles, which are found in a few bricks, against all bricks. Values anywhere between
+// the least and the greatest, and beyond.
+TEST(IsoSurface, ItsBoundsAreThoseOfAllBricksThatHoldIt) {
+  Random random(12);
+  int surfaces = 0, without = 0;
+  for (int i = 0; i < 3000 * test::longer(); ++i) {
+    const auto drawn = test::randomSurface(random);
+    const BrickPyramid& pyramid = drawn->volume()->pyramid;
+    const double value = random.uniform(-0.1, 1.1) * (pyramid.range().high - pyramid.range().low) + pyramid.range().low;
+    const IsoSurface surface(drawn->volume(), drawn->frame(), {value});
+    Box box;
+    std::uint64_t bricks = 0;
+    pyramid.forEachHolding(value, [&](const auto& first, const auto& end) {
+      ++bricks;
+      for (unsigned c = 0; c < 8; ++c) {
+        const auto at = [&](std::size_t axis) { return (c >> axis & 1U) != 0 ? end[axis] : first[axis]; };
+        box.extend(surface.frame().point(at(0), at(1), at(2)));
+      }
+    });
+    ASSERT_EQ(surface.bounds().min, box.min) << i;
+    ASSERT_EQ(surface.bounds().max, box.max) << i;
+    ASSERT_EQ(surface.triangles() == 0, bricks == 0) << i;
+    ++(bricks == 0 ? without : surfaces);
+  }
+  EXPECT_GT(std::min(surfaces, without), 100);
+}
+
+// One value of three kinds of samples: each part of their range is one kind.
+TEST(IsoSurface, ItsTrianglesAreCountedByTheRangesOfBricks) {
+  const auto volume = test::volumeOf({401, 9, 9}, [](const Vec3& at) {
+    return at.x() < 100 ? 0 : at.x() < 301 ? 1 : 2;
+  });
+  EXPECT_EQ(IsoSurface(volume, test::cubicFrame(1), {0.5}).triangles(), 4U * 32);
+  EXPECT_EQ(IsoSurface(volume, test::cubicFrame(1), {1.5}).triangles(), 4U * 32);
+  EXPECT_EQ(IsoSurface(volume, test::cubicFrame(1), {2.5}).triangles(), 0U);
+}
+
 TEST(IsoSurface, ItsTrianglesFaceOutward) {
   for (const bool mirrored : {false, true}) {
     for (const SolidSide solid : {SolidSide::kAbove, SolidSide::kBelow}) {
@@ -192,6 +229,57 @@ TEST(IsoSurface, WhatCannotBeIsRefused) {
   EXPECT_TRUE(IsoSurface(volume, test::cubicFrame(1), {100, SolidSide::kAbove}).bounds().empty());
 }
 
+// A value at the end of the range lies between two neighbours only where it is the greatest, or the least, of several.
+TEST(IsoSurface, AValueWithoutATriangleIsRefused) {
+  const auto refusal = [](const std::shared_ptr<const Volume>& volume, double iso, SolidSide solid) {
+    try {
+      requireSurface(IsoSurface(volume, test::cubicFrame(1), {iso, solid}));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto above = SolidSide::kAbove, below = SolidSide::kBelow;
+  const auto steps = test::volumeOf({9, 9, 9}, [](const Vec3& at) { return at.x() < 3 ? 0 : at.x() < 6 ? 1 : 2; });
+  const std::string range = ": its values are from 0 to 2",
+                    none = range + ", and no two neighbours have it between them";
+  for (const double iso : {0.001, 1.0, 1.999}) {
+    EXPECT_EQ(refusal(steps, iso, above), "");
+    EXPECT_EQ(refusal(steps, iso, below), "");
+  }
+  EXPECT_EQ(refusal(steps, 0, above), "there is no surface at iso 0" + none);
+  EXPECT_EQ(refusal(steps, 0, below), "");
+  EXPECT_EQ(refusal(steps, 2, above), "");
+  EXPECT_EQ(refusal(steps, 2, below), "there is no surface at iso 2" + none);
+  EXPECT_EQ(refusal(steps, -1, below), "there is no surface at iso -1" + range);
+  const auto peak = test::volumeOf({9, 9, 9}, [](const Vec3& at) { return at == Vec3(4, 4, 4) ? 2 : 0; });
+  EXPECT_EQ(refusal(peak, 2, above), "there is no surface at iso 2" + none) << "a point is no surface";
+  EXPECT_EQ(refusal(peak, 1.9, above), "");
+  const auto parted = test::volumeOf({9, 2, 2}, [](const Vec3& at) { return at.x() == 4 ? NAN : at.x() < 4 ? 0 : 2; });
+  EXPECT_EQ(refusal(parted, 1, above), "there is no surface at iso 1" + none) << "a gap lies between the values";
+  const auto one_value = test::volumeOf({4, 4, 4}, [](const Vec3&) { return 2; });
+  EXPECT_NE(refusal(one_value, 2, above), "");
+  const auto missing = test::volumeOf({4, 4, 4}, [](const Vec3&) { return NAN; });
+  EXPECT_EQ(refusal(missing, 2, above), "no voxel of it has a finite value");
+}
+
+TEST(IsoSurface, ValuesBeyondSinglePrecisionAreRefused) {
+  const auto samples = std::make_shared<std::vector<std::int16_t>>(8, std::int16_t{10});
+  const auto refusal = [&](const ValueScale& values) {
+    const std::shared_ptr<const void> data(samples, samples->data());
+    try {
+      Volume volume(VoxelGrid({2, 2, 2}, Samples(SampleKind::kInt16, data), values));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal({1e37, 0}), "");
+  EXPECT_NE(refusal({1e38, 0}).find("of 1e+38 and offset of 0 take values beyond"), std::string::npos);
+  EXPECT_NE(refusal({-1e300, 0}).find("of -1e+300 and"), std::string::npos);
+  EXPECT_NE(refusal({1, 1e39}).find("of 1 and offset of 1e+39 take"), std::string::npos);
+}
+
 // What values feel like.
 
 TEST(MatterTable, IsLinearBetweenItsRowsAndConstantBeyondThem) {
@@ -223,8 +311,8 @@ TEST(MatterTable, RefusesWhatMakesNoSense) {
   refused({{.value = 1, .force = {-1, 0}}});
   refused({{.value = 1, .force = {0, INFINITY}}});
   refused({{.value = 1, .stiffness = 1}, {.value = 2}});
-  refused(std::vector<MatterRow>(MatterTable::kMostRows + 1));
+  refused(std::vector<MatterRow>(MatterTable::kMaxRows + 1));
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_iso_surface

@@ -7,11 +7,12 @@
 #include "base/error.h"
 #include "base/realtime_guard.h"
 #include "proxy/proxy.h"
+#include "scene/iso_shape.h"
 #include "scene/scene_model.h"
 #include "surfaces/threshold.h"
 #include "volumes.h"
 
-namespace hl {
+namespace hl::test_iso_touch {
 namespace {
 
 std::shared_ptr<const Snapshot> sceneOf(std::shared_ptr<const Shape> shape) {
@@ -60,6 +61,33 @@ TEST(IsoTouch, ASurfaceIsFeltAsTheSameMesh) {
       touched += one.contacts.empty() ? 0 : 1;
     }
     EXPECT_GT(touched, 200);
+  }
+}
+
+// A ball that grows over the finger, which is then deep below triangles much smaller than its depth.
+TEST(IsoTouch, ASmoothSurfaceThatGrewOverTheFingerHoldsTheProxyStill) {
+  constexpr double kSpacing = 0.1 / 60;
+  const auto volume = test::volumeOf(
+      {61, 61, 61}, [&](const Vec3& at) { return 1000 * (0.03 - (kSpacing * at - Vec3::Constant(0.05)).norm()); });
+  test::Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 way = random.direction();
+    const double grows_m = random.uniform(0.001, 0.014);
+    const auto grown = std::make_shared<const IsoSurface>(volume, test::cubicFrame(kSpacing, Vec3::Constant(-0.05)),
+                                                          IsoValue{-1000 * grows_m});
+    const auto scene = sceneOf(makeShape(grown));
+    ProxySettings settings;
+    settings.radius = random.uniform(0.5e-3, 3e-3);
+    settings.surfaces.smooth = true;
+    const double surface_m = 0.03 + grows_m + settings.radius;
+    const Vec3 finger = random.uniform(0.03, surface_m) * way;
+    const Vec3 aside = way.cross(random.direction()).normalized();
+    ProxyState state = startProxy(*scene, settings, (surface_m + 0.001) * (way + 0.2 * aside).normalized());
+    for (int k = 0; k < 40; ++k) tick(state, *scene, settings, finger);
+    EXPECT_LT((state.position - surface_m * way).norm(), 1e-4) << i;
+    const Vec3 before = state.position;
+    tick(state, *scene, settings, finger);
+    EXPECT_LT((state.position - before).norm(), 1e-9) << i;
   }
 }
 
@@ -151,10 +179,26 @@ TEST(Volumes, TakeOtherIsoValues) {
   setIsoValues(scene, {4});
   EXPECT_EQ(isoOf(0).value, 4);
   EXPECT_EQ(isoOf(0).solid, SolidSide::kBelow) << "another value has its matter on the same side";
+  EXPECT_THROW(setIsoValues(scene, {1e9}), Error);
   SceneModel mesh;
   EXPECT_THROW(setIsoValues(mesh, {1}), Error);
   EXPECT_THROW(setSolidSide(mesh, SolidSide::kBelow), Error);
 }
 
+// Opening a scene asks for a surface; who moves the slider passes values that have none.
+TEST(Volumes, AreMovedOverTheirWholeRangeAndBeyond) {
+  SceneModel scene = twoSurfaces();
+  const auto snapshot = makeSnapshot(scene);
+  Instance instance = snapshot->instances.front();
+  const ValueRange range = isoSurfaceOf(instance)->volume()->pyramid.range();
+  for (const double value : {double{range.low}, double{range.high}, range.low - 1.0, range.high + 1.0, 10.0}) {
+    for (const SolidSide side : {SolidSide::kAbove, SolidSide::kBelow}) {
+      EXPECT_EQ(checkIsoChange(*snapshot, instance.key, {value, side}), instance.key);
+      setIso(instance, {value, side});
+      EXPECT_EQ(isoSurfaceOf(instance)->iso(), (IsoValue{value, side}));
+    }
+  }
+}
+
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_iso_touch

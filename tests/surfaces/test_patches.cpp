@@ -13,7 +13,7 @@
 #include "surfaces/patch_mesh.h"
 #include "teapot_patches.h"
 
-namespace hl {
+namespace hl::test_patches {
 namespace {
 
 using Bits = std::array<double, 3>;
@@ -58,7 +58,7 @@ std::vector<NurbsPatch> octants(double radius) {
 TEST(Patches, ARationalSphereIsClosedRoundAndWithinItsError) {
   constexpr double kR = 0.025;
   for (const double error_m : {1e-5, 2e-6}) {
-    for (const auto& patches : {std::vector{test::sphere(kR)}, octants(kR)}) {
+    for (const auto& patches : {std::vector{test::spherePatch(kR)}, octants(kR)}) {
       const PatchMesh mesh = meshOf(patches, error_m);
       EXPECT_EQ(openSides(mesh), 0u);
       EXPECT_LE(mesh.error_m, error_m);
@@ -195,7 +195,7 @@ Model modelOf(PatchMesh mesh) {
 }
 
 TEST(PatchTouch, ABallRestsOneRadiusFromASphereAllRound) {
-  const PatchMesh mesh = meshOf({test::sphere(0.025)}, 1e-5);
+  const PatchMesh mesh = meshOf({test::spherePatch(0.025)}, 1e-5);
   const auto scene = makeSnapshot(SceneModel(modelOf(mesh)));
   ProxySettings settings;
   settings.radius = 1e-3;
@@ -236,7 +236,7 @@ TEST(Patches, WhatMakesNoSurfaceIsRefusedWithOneLine) {
     return "";
   };
   const auto changed = [](const std::function<void(NurbsPatch&)>& change) {
-    NurbsPatch patch = test::sphere(0.02);
+    NurbsPatch patch = test::spherePatch(0.02);
     change(patch);
     return patch;
   };
@@ -266,4 +266,4 @@ TEST(Patches, WhatMakesNoSurfaceIsRefusedWithOneLine) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_patches

@@ -12,7 +12,7 @@
 #include "instruction_sets.h"
 #include "surfaces/depth_camera.h"
 
-namespace hl {
+namespace hl::test_tile_triangles {
 namespace {
 
 using test::Random;
@@ -114,4 +114,4 @@ TEST(TileTriangles, AreTheSameWithEachInstructionSet) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_tile_triangles

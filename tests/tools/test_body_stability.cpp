@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace hl {
+namespace hl::test_body_stability {
 namespace {
 
 constexpr double kStiffness_N_m = 1000;
@@ -105,4 +105,4 @@ TEST(BodyStability, R21WithTheForceOfTheBeginABodyOfLessThanAQuarterGramLeavesAF
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_body_stability

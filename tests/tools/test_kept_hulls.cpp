@@ -10,7 +10,7 @@
 #include "builtin.h"
 #include "web/kept_hulls.h"
 
-namespace hl {
+namespace hl::test_kept_hulls {
 namespace {
 
 // Each set of points of which a body's shape is a hull.
@@ -50,4 +50,4 @@ TEST(KeptHulls, ALineIsReadBackAsItWas) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_kept_hulls

@@ -7,7 +7,7 @@
 
 #include "device/simulated_device.h"
 
-namespace hl {
+namespace hl::test_self_test {
 namespace {
 
 constexpr double kPeriod_s = 1e-3;
@@ -115,4 +115,4 @@ TEST(SelfTest, OldPositionsAreFound) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_self_test

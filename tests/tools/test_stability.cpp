@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hl {
+namespace hl::test_stability {
 namespace {
 
 StabilityCase linear(double mass_kg, double damping_Ns_m, double rate_Hz, int delay) {
@@ -63,4 +63,4 @@ TEST(Stability, TheSameCaseGivesTheSameBits) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_stability

@@ -14,7 +14,7 @@
 #include "io/load_scene.h"
 #include "proxy/solver.h"
 
-namespace hl {
+namespace hl::test_trace {
 namespace {
 
 constexpr double kSide = 0.2;
@@ -185,4 +185,4 @@ TEST(Trace, TellsWhichSnapHolds) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_trace

@@ -4,7 +4,7 @@
 #include "scene/scene_model.h"
 #include "tools/trace.h"
 
-namespace hl {
+namespace hl::test_traced_bodies {
 namespace {
 
 constexpr double kStep_s = 1e-3;
@@ -124,4 +124,4 @@ TEST(TracedBodies, AreTheSameInEachRunAndNoneWithoutBodies) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_traced_bodies

@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-namespace hl {
+namespace hl::test_tremor {
 namespace {
 
 constexpr double kRms_m = 3e-4;
@@ -64,4 +64,4 @@ TEST(Tremor, OfNoSizeChangesNoBit) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_tremor

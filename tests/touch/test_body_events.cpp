@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "base/realtime_guard.h"
+#include "block_scenes.h"
 #include "bodies/test_worlds.h"
+#include "device/open_device.h"
 #include "proxy/effect_scenes.h"
-#include "touch/proxy_loop.h"
+#include "touch/ticker.h"
 
-namespace hl {
+namespace hl::test_body_events {
 namespace {
 
 constexpr std::int64_t kStep_ns = 1'000'000;
@@ -126,5 +128,30 @@ TEST(BodyEvents, WhatAClientDoesWakesAndIsNoImpact) {
   expectImpulse(told[0], kMass_kg * 1);
 }
 
+// While the device does not answer there are no steps; then all is done, four in a step.
+TEST(BodyEvents, WhatClientsDoWhileTheDeviceIsGoneIsDoneWhenItIsBack) {
+  constexpr int kCommands = 10;
+  const auto scene = test::sceneOfBlocks({test::Block{}}, 0, 0);
+  const auto device = openDevice("sim");
+  SnapshotSlot scenes(scene);
+  LiveSettings live({}, device->info(), scene->bounds);
+  LoopExchange exchange;
+  TouchViews views;
+  NoSink sink;
+  Ticker ticker(scenes, live, exchange, views, sink, kStep_ns, false);
+  BodyCommand push;
+  push.key = 2;
+  push.impulse_N_s = Vec3(0, 1e-3, 0);
+  for (int i = 0; i < kCommands; ++i) {
+    EXPECT_TRUE(live.actOnBody(push));
+    ticker.follow();
+    ticker.loop().skip();
+  }
+  for (int i = 1; i <= 5; ++i) ticker.loop().step(i * kStep_ns, Vec3(0.5, 0.5, 0.5), ticker.follow(), {});
+  const BodyWorld& world = *ticker.loop().bodies();
+  const double momentum_N_s = world.world().bodies[0].mass.mass_kg * world.state().bodies[0].velocity.y();
+  EXPECT_NEAR(momentum_N_s, kCommands * 1e-3, 1e-12);
+}
+
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_body_events

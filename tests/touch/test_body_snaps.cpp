@@ -9,7 +9,7 @@
 #include "plain_servo.h"
 #include "touch/touch_step.h"
 
-namespace hl {
+namespace hl::test_body_snaps {
 namespace {
 
 constexpr double kRadius_m = 0.001;
@@ -203,4 +203,4 @@ TEST(BodySnaps, AStepTakesNoMemory) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_body_snaps

@@ -11,7 +11,7 @@
 #include "plain_servo.h"
 #include "touch/touch_step.h"
 
-namespace hl {
+namespace hl::test_body_world {
 namespace {
 
 constexpr double kRadius_m = 0.001;
@@ -33,6 +33,11 @@ class Bench {
     commands_.radius_W = kRadius_m;
   }
 
+  /// The next scene: others of these blocks than those of before begin there.
+  void show(const std::vector<Block>& blocks, double friction, double gravity = 9.81) {
+    scenes_->publish(test::sceneOfBlocks(blocks, friction, gravity, 2));
+  }
+  void setSurfaces(const MaterialOverride& surfaces) { commands_.surfaces = surfaces; }
   // The force on the hand; the finger is there at the begin of the step.
   Vec3 step(const Vec3& finger, const ServoSettings& settings) {
     DeviceSample sample;
@@ -101,6 +106,49 @@ TEST(BodyWorld, ActionIsReactionToRounding) {
     ASSERT_LT(bench.imbalance().norm(), 1e-12) << i;
   }
   EXPECT_GT(bench.momentum().norm(), 1e-4) << "nothing was touched";
+}
+
+// m dv/dt = b (u - v): the drag falls from b u to 0 while body `i` comes to the speed of the finger, within m / b or a
+// step. An explicit damper drives what is lighter than b T / 2 to and fro, ever faster.
+void expectDraggedToTheSpeedOfTheFinger(Bench& bench, std::size_t i, double mass_kg, double viscosity_Ns_m) {
+  constexpr double kSpeed_m_s = 0.01, kDepth_m = 0.0005;
+  MaterialOverride viscous;
+  viscous.viscosity_Ns_m = viscosity_Ns_m;
+  bench.setSurfaces(viscous);
+  const ServoSettings settings = test::plainServo(1000);
+  Vec3 finger(0, 0.04 + kRadius_m + kDepth_m, 0);
+  sweep(bench, settings, finger, Vec3(0, -0.02, 0), 2 * kDepth_m / 0.02);
+  sweep(bench, settings, finger, Vec3::Zero(), 0.1);
+  const auto about = [&] { return ::testing::Message() << mass_kg << " kg, " << viscosity_Ns_m << " N s/m"; };
+  for (int step = 0; step < 500; ++step) {
+    finger.x() += settings.period_s * kSpeed_m_s;
+    const Vec3 force = bench.step(finger, settings);
+    ASSERT_LT(std::abs(force.x()), 1.01 * viscosity_Ns_m * kSpeed_m_s) << about();
+    ASSERT_LT(std::abs(bench.body(i).velocity.x()), 1.02 * kSpeed_m_s) << about();
+  }
+  const double passed = 0.5 * viscosity_Ns_m / mass_kg;  // time constants
+  if (mass_kg >= 1e-3) {                                 // lighter ones take longer: the drag on them is weaker
+    EXPECT_GT(bench.body(i).velocity.x(), 0.9 * kSpeed_m_s * (1 - std::exp(-passed))) << about();
+  }
+}
+
+TEST(BodyWorld, ViscosityDragsABodyOfAnyMassToTheSpeedOfTheFinger) {
+  for (const double mass_kg : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    for (const double viscosity_Ns_m : {0.1, 1.0, 10.0}) {
+      Bench bench({{mass_kg, Vec3::Constant(0.02), Vec3(0, 0.02, 0)}}, 0);
+      expectDraggedToTheSpeedOfTheFinger(bench, 0, mass_kg, viscosity_Ns_m);
+    }
+  }
+}
+
+// In a world that goes on from another one.
+TEST(BodyWorld, ViscosityDragsALightBodyOfALaterSceneToo) {
+  const test::Block aside{0.1, Vec3::Constant(0.02), Vec3(0.5, 0.02, 0)};
+  Bench bench({aside}, 0);
+  Vec3 finger(0, 0.1, 0);
+  sweep(bench, test::plainServo(1000), finger, Vec3::Zero(), 0.01);
+  bench.show({aside, {1e-4, Vec3::Constant(0.02), Vec3(0, 0.02, 0)}}, 0);
+  expectDraggedToTheSpeedOfTheFinger(bench, 1, 1e-4, 1);
 }
 
 TEST(BodyWorld, R25AHeavyBodyFeelsLikeAWall) {
@@ -239,4 +287,4 @@ TEST(BodyWorld, AnImpulseWakesWhatSleeps) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_body_world

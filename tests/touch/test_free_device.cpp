@@ -9,7 +9,7 @@
 #include "plain_servo.h"
 #include "touch/touch_step.h"
 
-namespace hl {
+namespace hl::test_free_device {
 namespace {
 
 constexpr double kRadius_m = 0.001, kHalf_m = 0.02;
@@ -177,4 +177,4 @@ TEST(FreeDevice, R7TheCubeTakesWhatTheSpringHoldsWhenTheFingerStops) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_free_device

@@ -13,7 +13,7 @@
 #include "plain_servo.h"
 #include "touch/touch_step.h"
 
-namespace hl {
+namespace hl::test_hand_group {
 namespace {
 
 constexpr double kRadius_m = 0.001, kStiffness_N_m = 1000, kFriction = 0.5;
@@ -275,4 +275,4 @@ TEST(HandGroup, TheWorldGoesOnWithOneHandAndRestsWithoutAny) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_hand_group

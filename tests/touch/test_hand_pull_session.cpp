@@ -6,7 +6,7 @@
 #include "touch/touch_session.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_hand_pull_session {
 namespace {
 
 constexpr std::int64_t kHour_ns = 3'600'000'000'000;
@@ -90,4 +90,4 @@ TEST(HandPullSession, AForceBeyondTheDeviceIsCutToItsLimit) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_hand_pull_session

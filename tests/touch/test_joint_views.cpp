@@ -10,7 +10,7 @@
 #include "bodies/test_worlds.h"
 #include "touch/body_world.h"
 
-namespace hl {
+namespace hl::test_joint_views {
 namespace {
 
 constexpr double kMass_kg = 0.1, kWeight_N = 0.981, kSpring_N_m = 200;
@@ -76,4 +76,4 @@ TEST(JointViews, WhatHoldsTellsItsForceOnTheFirst) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_joint_views

@@ -9,7 +9,7 @@
 #include "touch/body_world.h"
 #include "touch/touch_step.h"
 
-namespace hl {
+namespace hl::test_joint_world {
 namespace {
 
 constexpr double kRadius_m = 0.001, kStep_s = 1e-3, kSpring_N_m = 1000;
@@ -140,4 +140,4 @@ TEST(JointWorld, R14ADetentJumpsFromTheStiffnessOfTheFingerOn) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_joint_world

@@ -10,7 +10,7 @@
 #include "proxy/effect_scenes.h"
 #include "touch/touch_step.h"
 
-namespace hl {
+namespace hl::test_late_proxy {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
@@ -198,4 +198,4 @@ TEST(HeldProxy, ASlidingFingerSwingsUpFromTheLatenessThatTheoryTellsAndOnPlanesN
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_late_proxy

@@ -16,7 +16,7 @@
 #include "proxy/proxy.h"
 #include "scene/snapshot.h"
 
-namespace hl {
+namespace hl::test_passivity {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
@@ -223,4 +223,4 @@ TEST(Passivity, LateProxiesHandedOverAtOnceDivergeInEveryRunAndMonotoneOnesSettl
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_passivity

@@ -12,7 +12,7 @@
 #include "scene/by_key.h"
 #include "scene/editable_scene.h"
 
-namespace hl {
+namespace hl::test_proxy_loop {
 namespace {
 
 constexpr double kSpring_N_m = 1000;
@@ -364,4 +364,4 @@ TEST(ProxyLoop, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_proxy_loop

@@ -13,13 +13,24 @@
 #include "temp_folder.h"
 #include "touch/touch_session.h"
 
-namespace hl {
+namespace hl::test_servo_watch {
 namespace {
 
-/// A device that stands at the origin, and hangs, is lost or let go when told to.
+/// It does not move.
+class StillHand final : public SimulatedHand {
+ public:
+  void setHandGoal(const Vec3&) override {}
+  void setHandFirm(bool) override {}
+  void setHandHolds(bool) override {}
+  void setHandButtons(std::uint32_t) override {}
+  void setHandTurn(const Eigen::Quaterniond&) override {}
+  void setHandGripper(double) override {}
+};
+
+/// A device that stands at the origin, and hangs, is slow, lost or let go when told to.
 class BreakableDevice final : public Device {
  public:
-  BreakableDevice() {
+  explicit BreakableDevice(SimulatedHand* hand) : hand_(hand) {
     info_.name = "breakable";
     info_.workspace_min = Vec3::Constant(-0.1);
     info_.workspace_max = Vec3::Constant(0.1);
@@ -34,24 +45,27 @@ class BreakableDevice final : public Device {
   const DeviceInfo& info() const override { return info_; }
   DeviceSample read(std::int64_t now_ns) override {
     while (hangs) std::this_thread::yield();
+    if (slow) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     DeviceSample sample;
     sample.time_ns = now_ns;
     sample.status = lost ? DeviceStatus::kLost : DeviceStatus::kOk;
     sample.held = held;
     return sample;
   }
+  SimulatedHand* hand() override { return hand_; }
   void write(const Vec3& force_N) override { force = force_N.norm(); }
   void stop() noexcept override {
     force = 0;
     ++stops;
   }
 
-  std::atomic<bool> hangs{false}, lost{false}, held{true};
+  std::atomic<bool> hangs{false}, slow{false}, lost{false}, held{true};
   std::atomic<double> force{0};
   std::atomic<int> stops{0};
 
  private:
   DeviceInfo info_;
+  SimulatedHand* const hand_;
 };
 
 void waitUntil(const std::function<bool()>& holds) {
@@ -60,12 +74,13 @@ void waitUntil(const std::function<bool()>& holds) {
 
 /// A session in an empty scene whose servo makes a constant force of 1 N.
 struct Bench {
+  StillHand hand;
   BreakableDevice* device;
   std::unique_ptr<TouchSession> session;
 
-  explicit Bench(TouchSettings settings = {}) {
+  explicit Bench(TouchSettings settings = {}, bool simulated = false) {
     settings.servo.effects.constant_N = Vec3(1, 0, 0);
-    auto own = std::make_unique<BreakableDevice>();
+    auto own = std::make_unique<BreakableDevice>(simulated ? &hand : nullptr);
     device = own.get();
     session = std::make_unique<TouchSession>(makeSnapshot(std::vector<Instance>{}), settings, std::move(own));
     session->start();
@@ -145,6 +160,25 @@ TEST(ServoWatch, ALostDeviceThatReturnsIsToldAndArmsAgainWhereItIsWanted) {
   }
 }
 
+TEST(ServoWatch, AServoThatIsLateTooOftenIsAFaultWhereAPersonHoldsTheDevice) {
+  Bench bench;
+  bench.device->slow = true;
+  waitUntil([&] { return bench.view().fault == FaultReason::kDeadlines; });
+  EXPECT_EQ(bench.view().safety, SafetyState::kFault);
+  EXPECT_EQ(bench.device->force, 0);
+}
+
+TEST(ServoWatch, ASimulatedHandGoesOnHoweverLateTheServoIs) {
+  Bench bench({}, true);
+  bench.device->slow = true;
+  waitUntil([&] {
+    EXPECT_NE(bench.view().fault, FaultReason::kDeadlines);
+    return bench.session->servoTotals().missed > 1000;
+  });
+  bench.device->slow = false;
+  bench.waitFor(SafetyState::kOn);
+}
+
 TEST(ServoWatch, ALetGoDeadManWaitsWithoutForce) {
   TouchSettings settings;
   settings.servo.dead_man = DeadMan::kHeld;
@@ -163,4 +197,4 @@ TEST(ServoWatch, LooksLongerWhereTheMachineOrTheServoIsSlow) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_servo_watch

@@ -5,7 +5,7 @@
 #include "snap_board.h"
 #include "touch/body_world.h"
 
-namespace hl {
+namespace hl::test_snap_board {
 namespace {
 
 TEST(SnapBoard, BlocksStandStillUntilTheyAreTouched) {
@@ -38,4 +38,4 @@ TEST(SnapBoard, EverySnapHoldsAFingerOnIt) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_snap_board

@@ -15,7 +15,7 @@
 #include "proxy/effect_scenes.h"
 #include "touch/touch_step.h"
 
-namespace hl {
+namespace hl::test_stack_use {
 namespace {
 
 constexpr std::size_t kStack_bytes = std::size_t{4} << 20;
@@ -88,4 +88,4 @@ TEST(StackUse, ATickAndAServoStepTakeAtMostHalfOfWhatIsReady) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_stack_use

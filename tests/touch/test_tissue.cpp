@@ -10,7 +10,7 @@
 
 #include "base/realtime_guard.h"
 
-namespace hl {
+namespace hl::test_tissue {
 namespace {
 
 using test::Tissue;
@@ -299,4 +299,4 @@ TEST(Tissue, StepsAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_tissue

@@ -5,13 +5,13 @@
 
 #include <vector>
 
-namespace hl {
+namespace hl::test_touch_events {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
-FixedVector<ObjectName, 3> touching(std::initializer_list<std::uint64_t> keys) {
-  FixedVector<ObjectName, 3> touched;
+FixedVector<ObjectName, kMaxActive> touching(std::initializer_list<std::uint64_t> keys) {
+  FixedVector<ObjectName, kMaxActive> touched;
   for (const std::uint64_t key : keys) touched.push({key, 1, 2, 3});
   return touched;
 }
@@ -70,4 +70,4 @@ TEST(TouchEvents, WithManyObjectsInAFlashEveryTouchHasItsEnd) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_touch_events

@@ -17,7 +17,7 @@
 #include "touch/session_views.h"
 #include "wait_for.h"
 
-namespace hl {
+namespace hl::test_touch_session {
 namespace {
 
 double clearance(const Snapshot& scene, const Vec3& p, double reach) {
@@ -222,4 +222,4 @@ TEST(TouchSession, BadCommandsChangeNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_touch_session

@@ -11,7 +11,7 @@
 #include "proxy/effect_scenes.h"
 #include "touch/loop_chooser.h"
 
-namespace hl {
+namespace hl::test_touch_step {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
@@ -221,4 +221,4 @@ TEST(LoopChooser, OneTickOfManyPeriodsIsEnough) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_touch_step

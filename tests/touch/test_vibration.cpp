@@ -15,7 +15,7 @@
 #include "tools/stability.h"
 #include "touch/touch_step.h"
 
-namespace hl {
+namespace hl::test_vibration {
 namespace {
 
 constexpr double kRadius_m = 0.002;
@@ -341,4 +341,4 @@ TEST(Vibration, TheGuardAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_vibration

@@ -6,7 +6,7 @@
 #include "touch/body_world.h"
 #include "workshop.h"
 
-namespace hl {
+namespace hl::test_workshop {
 namespace {
 
 class Shop {
@@ -83,4 +83,4 @@ TEST(Workshop, TheRingDoesNotLeaveItsPeg) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_workshop

@@ -25,7 +25,7 @@
 #include "surfaces/iso_surface.h"
 #include "temp_folder.h"
 
-namespace hl {
+namespace hl::test_vdb_file {
 namespace {
 
 using openvdb::FloatGrid;
@@ -262,8 +262,8 @@ TEST_F(VdbFile, WhatIsBrokenGivesOneLine) {
     EXPECT_EQ(refusalOf(fileWith("none" + ending, "")), "is empty");
     EXPECT_NE(refusalOf(fileWith("text" + ending, "nothing of the kind\n")), "");
     EXPECT_NE(refusalOf(fileWith("noise" + ending, std::string(3000, '\x9e'))), "");
-    for (const std::size_t part : {1U, 7U})
-      EXPECT_NE(refusalOf(fileWith("cut" + ending, good.substr(0, good.size() * part / 8))), "") << part;
+    for (const std::size_t left : {good.size() / 8, good.size() * 7 / 8, good.size() * 99 / 100, good.size() - 10})
+      EXPECT_NE(refusalOf(fileWith("cut" + ending, good.substr(0, left))), "") << ending << " of " << left;
     for (std::size_t i = 1; i < 6; ++i) {  // what is another number may still be a grid
       std::string broken = good;
       broken[good.size() * i / 6] = static_cast<char>(broken[good.size() * i / 6] ^ 0x41);
@@ -273,4 +273,4 @@ TEST_F(VdbFile, WhatIsBrokenGivesOneLine) {
 }
 
 }  // namespace
-}  // namespace hl
+}  // namespace hl::test_vdb_file

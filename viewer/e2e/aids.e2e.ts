@@ -5,7 +5,7 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { FakeServer } from "../test-support/fake_server";
 import {
-  expectTidyLayout, kSizes, launch, listen, openSection, resize, screenshot, states, type Complaints,
+  expectTidyLayout, kSizes, kWindow, launch, listen, openSection, resize, screenshot, states, type Complaints,
 } from "./browser";
 
 let browser: Browser;
@@ -17,7 +17,7 @@ beforeAll(async () => {
   browser = await launch();
   server = await FakeServer.start();
   server.explore = false;
-  page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+  page = await browser.newPage({ ...kWindow, colorScheme: "dark" });
   complaints = listen(page, server.url);
   await page.goto(server.url);
   await page.waitForFunction(() => window.__hl.samples > 100);
@@ -149,7 +149,7 @@ test("silhouettes have no dark speckles, with mesh edges they have their offset 
 });
 
 test("without WebGL the page says so, and numbers and controls work", async () => {
-  const blind = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+  const blind = await browser.newPage({ ...kWindow, colorScheme: "dark" });
   const heard = listen(blind, server.url);
   await blind.addInitScript(() => {
     const original = HTMLCanvasElement.prototype.getContext;
@@ -170,7 +170,7 @@ test("without WebGL the page says so, and numbers and controls work", async () =
 });
 
 test("a graphics context that is lost is told, and drawing goes on when it is back", async () => {
-  const other = await browser.newPage({ viewport: kSizes[0] });
+  const other = await browser.newPage(kWindow);
   await other.goto(server.url);
   await other.waitForFunction(() => window.__hl.samples > 10);
   await other.evaluate(() => {

@@ -11,17 +11,25 @@ export const kSizes = [
   { width: 1920, height: 1080 },
 ] as const;
 
+/** The usual window. Its canvas has a quarter of the pixels, as software GL takes its time for each; pictures have all. */
+export const kWindow = { viewport: kSizes[0], deviceScaleFactor: process.env.HL_SCREENSHOTS ? 1 : 0.5 };
+
 export function launch(): Promise<Browser> {
   return chromium.launch({
     executablePath: process.env.HL_CHROMIUM ?? "/usr/bin/chromium",
     headless: true,
     args: [
       "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+      // Software GL draws the scene alone; laying the page together by it, too, takes two thirds of the frames.
+      "--disable-gpu-compositing",
       "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
       "--disable-quic",
     ],
   });
 }
+
+/** What a page is waited for may come so late: software graphics on a machine that does other work, too. */
+const kLate_ms = 120_000;
 
 /** Everything that went wrong on the page, and every request that left the serving host. */
 export interface Complaints {
@@ -33,6 +41,7 @@ export interface Complaints {
 const kExpected = /WebSocket connection to .* failed|ERR_CONNECTION_REFUSED/;
 
 export function listen(page: Page, origin: string): Complaints {
+  page.setDefaultTimeout(kLate_ms);
   const complaints: Complaints = { errors: [], foreign: [] };
   page.on("console", (message) => {
     if ((message.type() === "error" || message.type() === "warning") && !kExpected.test(message.text())) {

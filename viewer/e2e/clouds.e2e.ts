@@ -2,7 +2,7 @@
 
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-import { kSizes, launch, listen, screenshot, states, type Complaints } from "./browser";
+import { kWindow, launch, listen, screenshot, states, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 /** Red, green and blue of the page at a place of its window. */
@@ -27,7 +27,7 @@ describe.skipIf(!kProgram)("a cloud of surfels", () => {
   beforeAll(async () => {
     touch = await startTouch(0, "../scenes/examples/clouds.hl.json", "--explore", "off");
     browser = await launch();
-    page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    page = await browser.newPage({ ...kWindow, colorScheme: "dark" });
     complaints = listen(page, touch.url);
     await page.goto(touch.url);
     await page.waitForFunction(() => window.__hl.objects === 3 && window.__hl.samples > 100);

@@ -4,7 +4,7 @@
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { length, sub, type Vec } from "../src/vec";
-import { expectTidyLayout, kSizes, launch, listen, screenshot, states, type Complaints } from "./browser";
+import { expectTidyLayout, kSizes, kWindow, launch, listen, screenshot, states, type Complaints } from "./browser";
 import { ended, kProgram, startTouch, type Touch } from "./programs";
 
 describe.skipIf(!kProgram)("hl touch with two devices", () => {
@@ -16,7 +16,7 @@ describe.skipIf(!kProgram)("hl touch with two devices", () => {
   beforeAll(async () => {
     touch = await startTouch(0, "teapot", "--device", "left=sim:touch", "--device", "right=sim:premium1.5");
     browser = await launch();
-    page = await browser.newPage({ viewport: kSizes[0] });
+    page = await browser.newPage(kWindow);
     complaints = listen(page, touch.url);
     await page.goto(touch.url);
   });
@@ -63,7 +63,7 @@ describe.skipIf(!kProgram)("two hands that the page moves", () => {
   beforeAll(async () => {
     touch = await startTouch(0, "teapot", "--device", "left=sim", "--device", "right=sim", "--explore", "off");
     browser = await launch();
-    page = await browser.newPage({ viewport: kSizes[0] });
+    page = await browser.newPage(kWindow);
     complaints = listen(page, touch.url);
     await page.goto(touch.url);
     await page.waitForSelector("#devices:not([hidden])");

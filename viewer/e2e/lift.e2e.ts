@@ -7,7 +7,7 @@ import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { length, sub, type Vec } from "../src/vec";
-import { expectTidyLayout, kSizes, launch, listen, screenshot, states, type Complaints } from "./browser";
+import { expectTidyLayout, kSizes, kWindow, launch, listen, screenshot, states, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 /** Half the side of the block, m. */
@@ -57,7 +57,7 @@ describe.skipIf(!kProgram)("two hands at a block", () => {
     writeFileSync(scene, kScene);
     touch = await startTouch(0, scene, "--device", "left=sim", "--device", "right=sim", "--explore", "off", "--scale", "1");
     browser = await launch();
-    page = await browser.newPage({ viewport: kSizes[0] });
+    page = await browser.newPage(kWindow);
     complaints = listen(page, touch.url);
     // Level, from the front: a drag moves a hand in x and y.
     await page.goto(`${touch.url}#show=drop,stylus,marks&camera=0,0.05,0.45,0,0.05,0`);

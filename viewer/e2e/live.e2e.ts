@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import {
-  expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+  expectTidyLayout, kSizes, kWindow, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
 } from "./browser";
 
 const kProgram = process.env.HL_MOVING_SCENE;
@@ -38,7 +38,7 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
   beforeAll(async () => {
     server = await start();
     browser = await launch();
-    page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    page = await browser.newPage({ ...kWindow, colorScheme: "dark" });
     complaints = listen(page, server.url);
     await page.goto(server.url);
     await page.waitForFunction(() => window.__hl.layout !== undefined && window.__hl.samples > 10);
@@ -82,7 +82,8 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
       ({ x, z }) => Math.hypot(window.__hl.originOf(0).x - x, window.__hl.originOf(0).z - z) > 0.05, from,
     );
     expect(await layoutNumber()).toBe(layout);
-    expect(await cameraX()).toBe(camera);
+    // The camera is computed anew in each frame: its last bits may change.
+    expect(await cameraX()).toBeCloseTo(camera, 6);
   });
 
   test("tells which objects are touched", async () => {
@@ -110,7 +111,7 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
   });
 
   test("a second page gets all of it at once", async () => {
-    const other = await browser.newPage({ viewport: kSizes[0], colorScheme: "light" });
+    const other = await browser.newPage({ ...kWindow, colorScheme: "light" });
     await other.goto(server.url);
     await other.waitForFunction(() => window.__hl.objects === 2 && window.__hl.meshes === 2);
     await screenshot(other, "live_light");

@@ -6,7 +6,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { LedgerMode, SurfacesSchema, TicksEndedSchema } from "../src/gen/hl_pb";
 import { FakeServer } from "../test-support/fake_server";
 import {
-  expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+  expectTidyLayout, kSizes, kWindow, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
 } from "./browser";
 
 let browser: Browser;
@@ -17,7 +17,7 @@ let complaints: Complaints;
 beforeAll(async () => {
   browser = await launch();
   server = await FakeServer.start();
-  page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+  page = await browser.newPage({ ...kWindow, colorScheme: "dark" });
   complaints = listen(page, server.url);
   await page.goto(server.url);
   await page.waitForFunction(() => window.__hl.samples > 100);
@@ -186,7 +186,7 @@ test("the key C draws friction cones, in another colour while slipping", async (
 });
 
 test("on a touch screen one finger drags the hand, a second one makes it a camera gesture", async () => {
-  const context = await browser.newContext({ viewport: kSizes[0], hasTouch: true });
+  const context = await browser.newContext({ ...kWindow, hasTouch: true });
   const screen = await context.newPage();
   await screen.goto(server.url);
   await screen.waitForFunction(() => window.__hl.samples > 10);
@@ -212,7 +212,7 @@ test("on a touch screen one finger drags the hand, a second one makes it a camer
 });
 
 test("on a touch screen a finger presses the model, and a second one changes the depth", async () => {
-  const context = await browser.newContext({ viewport: kSizes[0], hasTouch: true });
+  const context = await browser.newContext({ ...kWindow, hasTouch: true });
   const screen = await context.newPage();
   await screen.goto(server.url);
   await screen.waitForFunction(() => window.__hl.samples > 10);

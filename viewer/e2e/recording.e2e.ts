@@ -8,7 +8,7 @@ import { join } from "node:path";
 import type { Browser, BrowserContext, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import {
-  expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+  expectTidyLayout, kSizes, kWindow, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
 } from "./browser";
 import { ended, kProgram, startTouch, type Touch } from "./programs";
 
@@ -26,7 +26,7 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
   beforeAll(async () => {
     touch = await startTouch(0, "teapot", "--black-box", "off");
     browser = await launch();
-    context = await browser.newContext({ viewport: kSizes[0], colorScheme: "dark", acceptDownloads: true });
+    context = await browser.newContext({ ...kWindow, colorScheme: "dark", acceptDownloads: true });
     page = await context.newPage();
     complaints = listen(page, touch.url);
     await page.goto(touch.url);
@@ -101,7 +101,8 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
     }
     await choose(recordingFile);
     await page.waitForSelector("#timeline:visible");
-    const { length_s } = (await shown(page))!;
+    const { begin_s, end_s } = (await shown(page))!;
+    const [length_s, middle_s] = [end_s - begin_s, (begin_s + end_s) / 2];
     expect(length_s).toBeGreaterThan(1);
     expect(await page.isVisible("#plot-force")).toBe(false);
     await page.waitForFunction(() => window.__hl.triangles > 0 && window.__hl.proxy !== undefined);
@@ -112,7 +113,7 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
     // The slider has the focus: keys move it, and it says where it is.
     const slider = page.getByRole("slider", { name: "Time in the recording" });
     await page.keyboard.press("End");
-    await page.waitForFunction((end) => window.__hl.recording!.time_s > end - 0.02, length_s);
+    await page.waitForFunction((end) => window.__hl.recording!.time_s > end - 0.02, end_s);
     expect(await slider.getAttribute("aria-valuetext")).toMatch(/^\d+\.\d\d\ss of \d+\.\d\d\ss$/);
     await expect.poll(proxy).not.toEqual(still);
     await page.keyboard.press("Home");
@@ -123,10 +124,10 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
     expect((await shown(page))!.playing).toBe(false);
     const plot = (await page.locator("#plot-recorded-force").boundingBox())!;
     await page.mouse.click(plot.x + 52 + (plot.width - 68) / 2, plot.y + plot.height / 2);
-    await expect.poll(async () => Math.abs((await shown(page))!.time_s - length_s / 2) < 0.05 * length_s).toBe(true);
+    await expect.poll(async () => Math.abs((await shown(page))!.time_s - middle_s) < 0.05 * length_s).toBe(true);
     await page.click("text=¼×");
     await page.click("#timeline-play");
-    await page.waitForFunction((half) => window.__hl.recording!.time_s > half + 0.05, length_s / 2);
+    await page.waitForFunction((half) => window.__hl.recording!.time_s > half + 0.05, middle_s);
     await page.click("#timeline-play");
     await page.keyboard.press("Escape");
     await page.waitForSelector("#plot-force:visible");
@@ -138,6 +139,35 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
       expect(Math.hypot(x - turned[i]!.x, y - turned[i]!.y)).toBeLessThan(1);
     });
     await page.keyboard.press("r");
+  });
+
+  test("the timeline has the times and forces of hl replay's table", async () => {
+    const table = join(folder, "steps.csv");
+    hl("replay", recordingFile, "--csv", table);
+    const [head, ...lines] = readFileSync(table, "utf8").trim().split("\n");
+    const columns = ["t", "force_x", "force_y", "force_z"].map((name) => head!.split(",").indexOf(name));
+    const rows = lines.map((line) => line.split(",")).map((cells) => columns.map((column) => Number(cells[column])));
+    await choose(recordingFile);
+    await page.waitForSelector("#timeline:visible");
+    const { begin_s, end_s } = (await shown(page))!;
+    // A CSV has all digits of a double, and the page computes with other roundings.
+    expect(begin_s).toBeCloseTo(rows[0]![0]!, 8);
+    expect(end_s).toBeCloseTo(rows.at(-1)![0]!, 8);
+    for (const share of [0.3, 0.7]) {
+      await page.evaluate((to) => {
+        const slider = document.getElementById("timeline-at") as HTMLInputElement;
+        slider.value = String(to);
+        slider.dispatchEvent(new Event("input"));
+      }, begin_s + share * (end_s - begin_s));
+      await frames(3);
+      const { time_s, force } = await page.evaluate(() => ({
+        time_s: window.__hl.recording!.time_s, force: window.__hl.force_N!,
+      }));
+      const row = rows.filter(([t]) => t! <= time_s).at(-1)!;
+      // The page keeps single precision.
+      [force.x, force.y, force.z].forEach((value, i) => expect(value).toBeCloseTo(row[i + 1]!, 5));
+    }
+    await page.keyboard.press("Escape");
   });
 
   test("while a recording is shown the hand is not driven, and the live scene goes on", async () => {

@@ -7,7 +7,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import type { OtherDeviceSchema } from "../src/gen/hl_pb";
 import { FakeServer } from "../test-support/fake_server";
 import {
-  expectTidyLayout, kSizes, launch, listen, openSection, resize, screenshot, states, type Complaints,
+  expectTidyLayout, kSizes, kWindow, launch, listen, openSection, resize, screenshot, states, type Complaints,
 } from "./browser";
 
 const kNames = ["anna", "bert", "carl", "dora", "emil", "fritz", "gina", "hugo"];
@@ -39,7 +39,7 @@ const rows = () => page.locator("#shared-list .shared-server strong").allTextCon
 beforeAll(async () => {
   browser = await launch();
   server = await FakeServer.start();
-  page = await browser.newPage({ viewport: kSizes[0], colorScheme: "light" });
+  page = await browser.newPage({ ...kWindow, colorScheme: "light" });
   complaints = listen(page, server.url);
   await page.goto(server.url);
   await page.waitForFunction(() => window.__hl.samples > 100);
@@ -109,11 +109,10 @@ test("offers no way to arm the hand of another server", async () => {
   expect(await page.locator("#shared button").count()).toBe(0);
 });
 
-test("says in plain words that the world is shared no more, and why", async () => {
+test("says in plain words that the world is not shared, and why", async () => {
   server.remote = [];
-  server.shared = { ...kWorld, ended: "hl-share has ended: restart this server to share the world again" };
-  await expect.poll(() => page.textContent("#shared-line")).toBe(
-    "Not shared any more: hl-share has ended: restart this server to share the world again");
+  server.shared = { ...kWorld, ended: "hl-share has ended; it is started again" };
+  await expect.poll(() => page.textContent("#shared-line")).toBe("Not shared: hl-share has ended; it is started again");
   expect(await rows()).toEqual([]);
   await screenshot(page, "shared_page_ended");
 });

@@ -3,7 +3,7 @@
 
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-import { kSizes, launch, listen, screenshot, type Complaints } from "./browser";
+import { kWindow, launch, listen, screenshot, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 const shaftUp = (page: Page) => page.evaluate(() => {
@@ -20,7 +20,7 @@ describe.skipIf(!kProgram)("the stylus of a device with a wrist and a gripper", 
   beforeAll(async () => {
     touch = await startTouch(0, "teapot", "--device", "sim:omega7");
     browser = await launch();
-    page = await browser.newPage({ viewport: kSizes[0], colorScheme: "light" });
+    page = await browser.newPage({ ...kWindow, colorScheme: "light" });
     complaints = listen(page, touch.url);
     await page.goto(touch.url);
     await page.waitForFunction(() => window.__hl.triangles > 0 && window.__hl.stylus !== undefined);

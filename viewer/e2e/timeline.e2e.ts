@@ -6,7 +6,7 @@ import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
 import { PageRecording_Phase } from "../src/gen/hl_pb";
 import { FakeServer } from "../test-support/fake_server";
 import { fileOf, kStart, kWhole, steps as recordedSteps, type BlockBody } from "../test-support/recording_bytes";
-import { kSizes, launch, listen, openSection, screenshot, type Complaints } from "./browser";
+import { kWindow, launch, listen, openSection, screenshot, type Complaints } from "./browser";
 
 const kPhone = { width: 390, height: 844 };
 const kBlackBox: BlockBody = {
@@ -21,7 +21,7 @@ let complaints: Complaints;
 beforeAll(async () => {
   browser = await launch();
   server = await FakeServer.start();
-  page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+  page = await browser.newPage({ ...kWindow, colorScheme: "dark" });
   complaints = listen(page, server.url);
   await page.goto(server.url);
   await page.waitForFunction(() => window.__hl.samples > 50);

@@ -5,7 +5,7 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { FakeServer } from "../test-support/fake_server";
 import {
-  expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+  expectTidyLayout, kSizes, kWindow, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
 } from "./browser";
 
 interface Stick {
@@ -35,7 +35,7 @@ beforeAll(async () => {
   browser = await launch();
   server = await FakeServer.start();
   const context = await browser.newContext({
-    viewport: kSizes[0], colorScheme: "dark", permissions: ["clipboard-read", "clipboard-write"], acceptDownloads: true,
+    ...kWindow, colorScheme: "dark", permissions: ["clipboard-read", "clipboard-write"], acceptDownloads: true,
   });
   page = await context.newPage();
   complaints = listen(page, server.url);
@@ -151,7 +151,7 @@ test("view settings survive a reload, and a link shows another browser the same 
   expect(await page.isChecked("#drop")).toBe(false);
   expect(await page.inputValue("#section")).toBe("right");
 
-  const other = await (await browser.newContext({ viewport: kSizes[0] })).newPage();
+  const other = await (await browser.newContext({ ...kWindow })).newPage();
   await other.goto(link);
   await other.waitForFunction(() => window.__hl.samples > 50);
   expect(await other.isChecked("#cones")).toBe(true);

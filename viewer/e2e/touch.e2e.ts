@@ -10,7 +10,7 @@ import { length, sub, type Vec } from "../src/vec";
 import { knownVec } from "../src/wire_values";
 import { distanceToTriangles } from "../test-support/closest_point";
 import {
-  expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+  expectTidyLayout, kSizes, kWindow, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
 } from "./browser";
 import { ended, kProgram, startTouch, type Touch } from "./programs";
 
@@ -62,7 +62,7 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
   beforeAll(async () => {
     touch = await startTouch(0);
     browser = await launch();
-    page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    page = await browser.newPage({ ...kWindow, colorScheme: "dark" });
     complaints = listen(page, touch.url);
     tap.attach(page);
     await page.goto(touch.url);
@@ -120,7 +120,7 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
       return surfaces.staticFriction === 0.8 && surfaces.dynamicFriction === 0.4 && surfaces.smooth === false &&
         ledger === "STRICT";
     });
-    const other = await browser.newPage({ viewport: kSizes[0] });
+    const other = await browser.newPage(kWindow);
     await other.goto(touch.url);
     await other.waitForFunction(() => document.querySelector("#surface-static-friction-value")?.textContent === "0.80");
     await other.click("#surface-reset");

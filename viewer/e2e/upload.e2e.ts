@@ -6,7 +6,7 @@ import { dirname, join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { fileOf, kWhole } from "../test-support/recording_bytes";
-import { expectTidyLayout, kSizes, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
+import { expectTidyLayout, kSizes, kWindow, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
 import { boxObj, drop } from "./files";
 import { kProgram, startTouch, type Touch } from "./programs";
 import { zipBomb } from "./zip_bomb";
@@ -23,7 +23,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
   beforeAll(async () => {
     touch = await startTouch(0);
     browser = await launch();
-    page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    page = await browser.newPage({ ...kWindow, colorScheme: "dark" });
     complaints = listen(page, touch.url);
     await page.goto(touch.url);
     await page.waitForFunction(() => window.__hl.triangles > 0 && window.__hl.samples > 100);
@@ -44,6 +44,21 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#open-file")]);
     await chooser.setFiles(file);
   }
+
+  test("is cancelled while it is sent; what was open still is, and another one can be given", async () => {
+    const network = await page.context().newCDPSession(page);
+    const send = (uploadThroughput: number) => network.send("Network.emulateNetworkConditions",
+      { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput });
+    await network.send("Network.enable");
+    await send(50_000);
+    const scene = await page.evaluate(() => window.__hl.sceneName);
+    await choose("slow.obj", `${boxObj(4, 2, 3)}${"# long\n".repeat(300_000)}`);
+    await page.click(".notice .cancel");
+    await expect.poll(told).toBe("slow.obj is not opened: cancelled.");
+    await send(-1);
+    expect(await page.locator('.notice[data-cause="file"]').count()).toBe(0);
+    expect(await page.evaluate(() => window.__hl.sceneName)).toBe(scene);
+  });
 
   test("is chosen, becomes the scene, fits the view and is felt where it is pressed", async () => {
     await choose("box.obj", boxObj(4, 2, 3));
@@ -153,7 +168,7 @@ describe.skipIf(!kProgram)("a server that takes no files", () => {
     const touch = await startTouch(0, "teapot", "--upload", "off");
     const browser = await launch();
     try {
-      const page = await browser.newPage({ viewport: kSizes[0] });
+      const page = await browser.newPage(kWindow);
       await page.goto(touch.url);
       await page.waitForFunction(() => window.__hl.samples > 0);
       expect(await page.isVisible("#open-file")).toBe(true);

@@ -2,7 +2,7 @@
 
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-import { kSizes, launch, listen, screenshot, states, type Complaints } from "./browser";
+import { kWindow, launch, listen, screenshot, states, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 describe.skipIf(!kProgram)("the slider of a volume", () => {
@@ -14,7 +14,7 @@ describe.skipIf(!kProgram)("the slider of a volume", () => {
   beforeAll(async () => {
     touch = await startTouch(0, "ct:phantom:81", "--explore", "off");
     browser = await launch();
-    page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    page = await browser.newPage({ ...kWindow, colorScheme: "dark" });
     complaints = listen(page, touch.url);
     await page.goto(touch.url);
     await page.waitForFunction(() => window.__hl.objects === 2 && window.__hl.samples > 100);

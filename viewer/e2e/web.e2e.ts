@@ -9,7 +9,7 @@ import { extname, join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { fileOf, kWhole } from "../test-support/recording_bytes";
-import { expectTidyLayout, kSizes, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
+import { expectTidyLayout, kSizes, kWindow, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
 import { boxObj, boxPly, boxStl, drop } from "./files";
 
 const folder = process.env.HL_WEB ?? "../build/web";
@@ -167,7 +167,7 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
   });
 
   test("moves the bodies of the workshop, by themselves and where they are pushed", async () => {
-    const shop = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    const shop = await browser.newPage({ ...kWindow, colorScheme: "dark" });
     const heard = listen(shop, origin);
     await shop.goto(`${origin}?scene=workshop`);
     await shop.waitForFunction(() => window.__hl.objects > 20 && window.__hl.samples > 100);
@@ -193,7 +193,7 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
   });
 
   test("draws snaps and fields, and takes them away with the key J", async () => {
-    const board = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    const board = await browser.newPage({ ...kWindow, colorScheme: "dark" });
     await board.goto(`${origin}?scene=snaps`);
     await board.waitForFunction(() => window.__hl.objects === 3 && window.__hl.samples > 100);
     await screenshot(board, "web_snaps");
@@ -208,7 +208,7 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
   });
 
   test("shows the teapot where the address names no scene, and says so", async () => {
-    const other = await browser.newPage({ viewport: kSizes[0], colorScheme: "light" });
+    const other = await browser.newPage({ ...kWindow, colorScheme: "light" });
     await other.goto(`${origin}?scene=nosuch`);
     await other.waitForFunction(() => window.__hl.sceneName === "teapot" && window.__hl.samples > 0);
     expect(await other.textContent(".notice.told span")).toMatch(/^no built-in scene 'nosuch'; there are teapot/);

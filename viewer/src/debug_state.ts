@@ -24,7 +24,8 @@ export interface DebugSources {
 }
 
 export interface RecordingShown {
-  readonly length_s: number;
+  readonly begin_s: number;
+  readonly end_s: number;
   readonly time_s: number;
   readonly playing: boolean;
 }

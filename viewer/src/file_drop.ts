@@ -1,6 +1,9 @@
 // A file that the user drops on the page or chooses. A table says what opens which ending; this module finds the opener,
 // tells how far it is, and what came of it. One file at a time.
 
+/** Shows a line while something goes on. `cancel`: what stops it, while that can be. */
+export type TellWhile = (line: string, cancel?: () => void) => void;
+
 export interface FileOpener {
   /** What it opens, in the plural, for a sentence. */
   readonly what: string;
@@ -9,18 +12,19 @@ export interface FileOpener {
   /** In one line why it opens nothing now; undefined: it does. */
   refusal(): string | undefined;
   /**
-   * Opens a file. `tell` shows a line while it goes on. Resolves with the line that says what is open now, or "" where that
-   * is plain to see; rejects with an Error whose message is one line for the user, and then what was open before still is.
+   * Opens a file. Resolves with the line that says what is open now, or that it was cancelled, or "" where that is plain
+   * to see; rejects with an Error whose message is one line for the user, and then what was open before still is.
    */
-  open(file: File, tell: (line: string) => void): Promise<string>;
+  open(file: File, tell: TellWhile): Promise<string>;
 }
 
 export const kAnyEnding = "*";
 
 /** Where the lines go; Notices is one. */
 export interface FileLines {
-  stand(cause: string, text: string | undefined, kind: "bad" | "warn" | "plain"): void;
-  tell(text: string, bad: boolean): void;
+  stand(cause: string, text: string | undefined, kind: "bad" | "warn" | "plain", cancel?: () => void): void;
+  tell(text: string, bad: boolean, about: string): void;
+  settle(about: string): void;
 }
 
 const kShownName_characters = 60;
@@ -89,9 +93,9 @@ export class FileDrop {
       return;
     }
     if (files.length > 1) {
-      this.lines_.tell(`${files.length} files at once: give one file.`, true);
+      this.lines_.tell(`${files.length} files at once: give one file.`, true, kCause);
     } else if (this.busy_) {
-      this.lines_.tell(`Busy with another file: give ${shownName(file.name)} again when it is done.`, true);
+      this.lines_.tell(`Busy with another file: give ${shownName(file.name)} again when it is done.`, true, kCause);
     } else {
       await this.open(file);
     }
@@ -101,18 +105,20 @@ export class FileDrop {
     const opener = openerOf(this.openers_, file.name);
     const refusal = opener === undefined ? unopened(this.openers_, file.name) : opener.refusal();
     if (opener === undefined || refusal !== undefined) {
-      this.lines_.tell(refusal!, true);
+      this.lines_.tell(refusal!, true, kCause);
       return;
     }
     this.busy_ = true;
     try {
-      const opened = await opener.open(file, (line) => this.lines_.stand(kCause, line, "plain"));
-      if (opened !== "") {
-        this.lines_.tell(opened, false);
+      const opened = await opener.open(file, (line, cancel) => this.lines_.stand(kCause, line, "plain", cancel));
+      if (opened === "") {
+        this.lines_.settle(kCause);
+      } else {
+        this.lines_.tell(opened, false, kCause);
       }
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
-      this.lines_.tell((await isReadable(file)) ? why : unreadable(file.name), true);
+      this.lines_.tell((await isReadable(file)) ? why : unreadable(file.name), true, kCause);
     } finally {
       this.busy_ = false;
       this.lines_.stand(kCause, undefined, "plain");

@@ -8,7 +8,7 @@ import { overlay } from "./overlay";
 import { themeColour } from "./theme";
 import { knownVec } from "./wire_values";
 
-const kMost = 8;
+const kMax = 8;
 /** Shortest side as a share of the model's diagonal: the cone of a light touch would hide inside the proxy. */
 const kShortestShare = 0.09;
 const kUp = new THREE.Vector3(0, 1, 0);
@@ -27,7 +27,7 @@ export class FrictionCones {
     const angles = Array.from({ length: 48 }, (_, i) => (i * Math.PI) / 24);
     const rim = angles.map((angle) => new THREE.Vector3(Math.cos(angle), 1, Math.sin(angle)));
     const loop = new THREE.BufferGeometry().setFromPoints(rim);
-    for (let i = 0; i < kMost; ++i) {
+    for (let i = 0; i < kMax; ++i) {
       const cone = new THREE.Group().add(new THREE.Mesh(side, this.fill_), new THREE.LineLoop(loop, this.rim_));
       cone.visible = false;
       this.cones_.push(cone);

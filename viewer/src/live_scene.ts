@@ -31,6 +31,8 @@ export class LiveScene {
   private name_: string | undefined;
   /** Meshes of the scene in whose place another one is to come. */
   private leaving_: ReadonlySet<number> | undefined;
+  /** The server has taken that other scene; its layout is yet to come. */
+  private coming_ = false;
   private moves_: Moves | undefined;
   private moving_ = false;
   private touched_: readonly number[] = [];
@@ -52,6 +54,11 @@ export class LiveScene {
     return this.moving_;
   }
 
+  /** Whether the scene, or another one in its place, is on its way. */
+  get coming(): boolean {
+    return this.layout === undefined || this.coming_;
+  }
+
   /** Objects of the layout that are touched. */
   get touched(): readonly number[] {
     return this.touched_;
@@ -64,6 +71,7 @@ export class LiveScene {
     }
     this.name_ = name;
     this.leaving_ = undefined;
+    this.coming_ = false;
     this.store_.clear();
     this.model.clear();
     this.marks.clear();
@@ -85,13 +93,19 @@ export class LiveScene {
   /** A file of this page is about to take the place of the scene, perhaps under the same name; or is not, after all. */
   expectOther(expected: boolean): void {
     this.leaving_ = expected ? new Set(this.layout?.placed.map(({ mesh }) => mesh)) : undefined;
+    this.coming_ = false;
+  }
+
+  /** The server has the other scene, and tells it. */
+  taken(): void {
+    this.coming_ = this.leaving_ !== undefined;
   }
 
   setLayout(layout: Layout): void {
     if (this.isOther(layout)) {
       this.name_ = layout.name;
       this.leaving_ = this.fitted_ = undefined;
-      this.begun_ = false;
+      this.begun_ = this.coming_ = false;
       this.hooks_.replaced();
     }
     this.store_.setLayout(layout);

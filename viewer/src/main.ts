@@ -22,6 +22,7 @@ import { ModelFile } from "./model_file";
 import { isAside } from "./moved_hands";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
+import { Receiving } from "./receiving";
 import { RecordPanel } from "./record_panel";
 import { kWindow_s } from "./plots";
 import { Pointing } from "./pointing";
@@ -68,6 +69,7 @@ class App {
     toggleTogether: () => this.hands_.toggleTogether(),
   });
   private readonly notices_ = new Notices();
+  private readonly receiving_ = new Receiving();
   private readonly recordingFile_ = new RecordingFile((recording, name) => this.timeline_.open(recording, name));
   private readonly modelFile_ = new ModelFile(
     (expected) => this.live_.expectOther(expected), () => this.showOpened(),
@@ -96,7 +98,7 @@ class App {
   });
   private readonly recordPanel_ = new RecordPanel(
     (on, owner) => this.connection_.send(encodeRecord(on, owner)), () => this.live_.layout?.name ?? "",
-    (text) => this.notices_.tell(text, false),
+    (text, bad) => this.notices_.tell(text, bad, "recording"),
   );
   private readonly panel_: Panel;
   private readonly surfacePanel_: SurfacePanel;
@@ -225,7 +227,16 @@ class App {
       this.eye_ = undefined;
       this.timeline_.close();
       this.live_.expectOther(true);
+    } else {
+      this.live_.taken();
     }
+  }
+
+  /** Also before there are states: the largest scenes take longest. */
+  private showReceiving(now_ms: number): void {
+    const coming = this.connection_.state === "live" && this.held_ === undefined && this.live_.coming;
+    const line = this.receiving_.line(coming, coming ? this.live_.store.trianglesAhead() : 0, now_ms);
+    this.notices_.stand("receiving", line, "plain");
   }
 
   /** While a recording is shown the session is not touched. */
@@ -338,6 +349,7 @@ class App {
       this.hands_.input.cancel();
       this.sound_.silence();
       this.recordPanel_.lose();
+      this.others_.lose();
     }
   }
 
@@ -348,6 +360,7 @@ class App {
     this.live_.frame();
     this.pointing_.showPicked(this.hands_.input.pressed);
     this.showProbe();
+    this.showReceiving(now_ms);
     this.stage_.draw();
     if (this.stateFresh_ && !this.sharing_.paused && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {
       this.lastPlot_ms_ = now_ms;
@@ -369,7 +382,8 @@ class App {
   }
 
   private showProbe(): void {
-    this.probe_.update(this.state_);
+    // Its size is the scene's, and so is the view: none is known before the first layout.
+    this.probe_.update(this.live_.layout === undefined && this.held_ === undefined ? undefined : this.state_);
     const view = this.stage_.viewFrame();
     this.scaleBar_.show(metresPerPixel(view, depthOf(view, this.stage_.target)));
     this.pointing_.showFinder(this.connection_.state === "live" && this.held_ === undefined, this.hands_.input);
@@ -410,6 +424,7 @@ class App {
     this.tellVibration();
     this.surfacePanel_.showSurfaces(state.surfaces);
     this.ledgerPanel_.show(state.ledger);
+    this.volumePanel_.follow();
     this.notices_.stand("slow-motion", this.bodies_.show(state, kWindow_s), "warn");
     this.stateFresh_ = false;
   }
@@ -443,6 +458,13 @@ class App {
     const fit = () => this.stage_.resize(freeInsets());
     new ResizeObserver(fit).observe(element("view"));
     fit();
+    // What stands above the hints, or above the timeline in their place, makes room for their lines.
+    const foot = [element("hints"), element("timeline")];
+    const rise = new ResizeObserver(() => {
+      const height_px = Math.max(...foot.map(({ offsetHeight }) => offsetHeight));
+      document.documentElement.style.setProperty("--foot-height", `${height_px}px`);
+    });
+    foot.forEach((part) => rise.observe(part));
   }
 }
 

@@ -1,50 +1,110 @@
-// Banners at the top of the view. A keyed banner stands until its cause is gone; a server's notice can be closed.
+// Banners at the view. A keyed banner stands until its cause is gone; a line that is told can be closed.
 
 import { element } from "./elements";
+import { lifeOf, stayingWith, type ToldLine } from "./told_lines";
 
-const kNoticesMax = 4;
+interface Told extends ToldLine {
+  readonly banner: HTMLElement;
+}
+
+function withWords(banner: HTMLElement): HTMLElement {
+  banner.append(document.createElement("span"));
+  return banner;
+}
+
+/** The button stays the same from line to line, so that it is not taken away under a pointer. */
+function showCancel(banner: HTMLElement, cancel: (() => void) | undefined): void {
+  const old = banner.querySelector("button");
+  if (cancel === undefined) {
+    old?.remove();
+    return;
+  }
+  const button = old ?? document.createElement("button");
+  button.type = "button";
+  button.className = "cancel";
+  button.textContent = "Cancel";
+  button.onclick = cancel;
+  if (old === null) {
+    banner.append(button);
+  }
+}
 
 export class Notices {
   private readonly host_ = element("notices");
   private readonly standing_ = new Map<string, HTMLElement>();
+  private told_: readonly Told[] = [];
 
-  /** Shows or replaces the banner of one cause; undefined removes it. */
-  stand(cause: string, text: string | undefined, kind: "bad" | "warn" | "plain" = "bad"): void {
+  /** Shows or replaces the banner of one cause; undefined removes it. `cancel`: what a button beside the text does. */
+  stand(cause: string, text: string | undefined, kind: "bad" | "warn" | "plain" = "bad", cancel?: () => void): void {
     const old = this.standing_.get(cause);
     if (text === undefined) {
       old?.remove();
       this.standing_.delete(cause);
       return;
     }
-    const banner = old ?? document.createElement("div");
+    const banner = old ?? withWords(document.createElement("div"));
     banner.className = `notice ${kind}`;
     banner.dataset.cause = cause;
     banner.setAttribute("role", kind === "bad" ? "alert" : "status");
-    if (banner.textContent !== text) {
-      banner.textContent = text;
+    const words = banner.firstElementChild!;
+    if (words.textContent !== text) {
+      words.textContent = text;
     }
+    showCancel(banner, cancel);
     if (old === undefined) {
       this.standing_.set(cause, banner);
       this.host_.prepend(banner);
     }
   }
 
-  /** A message of the server, with a button to close it; the oldest ones go first. */
-  tell(text: string, bad: boolean): void {
-    const banner = document.createElement("div");
+  /** A line with a button to close it. `about`: what the user does that it tells of; told_lines.ts: when it goes. */
+  tell(text: string, bad: boolean, about?: string): void {
+    const line: Told = { text, bad, about, banner: this.made(text, bad) };
+    this.keep([...stayingWith(this.told_, line), line]);
+    this.host_.append(line.banner);
+    const life_ms = lifeOf(line);
+    if (life_ms !== undefined) {
+      this.endAfter(line.banner, life_ms);
+    }
+  }
+
+  /** It went well, and there is nothing to tell: what was told of it is past. */
+  settle(about: string): void {
+    this.keep(this.told_.filter((line) => line.about !== about));
+  }
+
+  private made(text: string, bad: boolean): HTMLElement {
+    const banner = withWords(document.createElement("div"));
     banner.className = bad ? "notice bad told" : "notice told";
-    const words = document.createElement("span");
-    words.textContent = text;
+    banner.setAttribute("role", bad ? "alert" : "status");
+    banner.firstElementChild!.textContent = text;
     const close = document.createElement("button");
     close.type = "button";
     close.textContent = "×";
     close.setAttribute("aria-label", "Close");
-    close.addEventListener("click", () => banner.remove());
-    banner.append(words, close);
-    this.host_.append(banner);
-    const told = this.host_.querySelectorAll(".told");
-    for (let i = 0; i < told.length - kNoticesMax; ++i) {
-      told[i]!.remove();
-    }
+    close.addEventListener("click", () => this.close(banner));
+    banner.append(close);
+    return banner;
+  }
+
+  /** Nothing goes that nobody can have read, or that a pointer or the focus is on. */
+  private endAfter(banner: HTMLElement, life_ms: number): void {
+    setTimeout(() => {
+      if (document.hidden || banner.matches(":hover, :focus-within")) {
+        this.endAfter(banner, life_ms);
+      } else {
+        this.close(banner);
+      }
+    }, life_ms);
+  }
+
+  private close(banner: HTMLElement): void {
+    this.keep(this.told_.filter((line) => line.banner !== banner));
+  }
+
+  private keep(lines: readonly Told[]): void {
+    const kept = new Set(lines);
+    this.told_.filter((line) => !kept.has(line)).forEach(({ banner }) => banner.remove());
+    this.told_ = lines;
   }
 }

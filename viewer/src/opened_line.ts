@@ -1,11 +1,13 @@
 // What is told of a model that has been opened.
 
-import { formatCount, formatSi, kThinSpace } from "./units";
+import { formatCount, formatSi, kThinSpace, nounFor } from "./units";
 
 /** As the server answers it. */
 export interface Opened {
   readonly name: string;
   readonly triangles: number;
+  /** Everything that is felt: triangles, and what surfaces without any are made of. Absent: there is nothing else. */
+  readonly primitives?: number;
   readonly world_per_device: number;
   readonly warnings: readonly string[];
 }
@@ -14,7 +16,16 @@ export interface Opened {
 export function openedLine(name: string, opened: Omit<Opened, "name">): string {
   const sentence = (warning: string) => ` ${warning.charAt(0).toUpperCase()}${warning.slice(1)}.`;
   const warnings = opened.warnings.map(sentence).join("");
-  const size = `${formatCount(opened.triangles)} ${opened.triangles === 1 ? "triangle" : "triangles"}`;
-  return `${name}: ${size}; 1${kThinSpace}mm of the hand is ` +
+  return `${name}: ${sizeOf(opened)}; 1${kThinSpace}mm of the hand is ` +
     `${formatSi(opened.world_per_device * 1e-3, "m")} of the scene.${warnings}`;
+}
+
+function sizeOf({ triangles, primitives = triangles }: Omit<Opened, "name">): string {
+  const counted = (count: number, noun: string) => `${formatCount(count)} ${nounFor(count, noun)}`;
+  if (primitives <= triangles) {
+    return counted(triangles, "triangle");
+  }
+  const primitive = counted(primitives, "primitive");
+  const kind = triangles === 1 ? "a triangle" : "triangles";
+  return triangles === 0 ? primitive : `${primitive}, ${formatCount(triangles)} of them ${kind}`;
 }

@@ -9,6 +9,7 @@ import { SafetyState, StateSchema, type Hello, type State } from "./gen/hl_pb";
 import { depthOf, metresPerPixel, type ViewFrame } from "./hand_mapping";
 import { isAside, type HandChoice } from "./moved_hands";
 import { ProbeView } from "./probe_view";
+import { kUnknown } from "./units";
 
 interface RowElements {
   readonly root: HTMLElement;
@@ -89,6 +90,11 @@ export class OtherDevices {
     this.section_.hidden = rows.length === 0;
     this.rows_.forEach((row, number) => (row.root.hidden = number >= rows.length));
     rows.forEach((row, number) => this.fill(this.rows_[number]!, row));
+  }
+
+  /** The server is not heard: what it told last may not be so now. */
+  lose(): void {
+    this.rows_.forEach(({ force }) => (force.textContent = kUnknown));
   }
 
   /** Once per drawn frame. */

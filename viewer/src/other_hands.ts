@@ -48,6 +48,11 @@ export class OtherHands {
     [this.devices_, this.shared_].forEach((panel) => panel.showNumbers(state));
   }
 
+  /** The server is not heard. */
+  lose(): void {
+    this.devices_.lose();
+  }
+
   /** Once per drawn frame. */
   showProbes(state: State | undefined, camera: THREE.Camera, view: ViewFrame): void {
     [this.devices_, this.remote_].forEach((hands) => hands.showProbes(state, camera, view));

@@ -12,7 +12,7 @@ import type { Counts } from "./scene_store";
 import type { Side } from "./section";
 import type { ThemeChoice } from "./theme";
 import { describeEndings } from "./ticks_ended";
-import { formatCount, formatFixed, formatScale, formatShortCount, formatSi, kNoBreak, kThinSpace } from "./units";
+import { formatCount, formatFixed, formatScale, formatShortCount, formatSi, kNoBreak, kThinSpace, kUnknown, nounFor } from "./units";
 
 export interface PanelActions {
   settings(change: SettingsChange): void;
@@ -99,12 +99,17 @@ export class Panel {
     element("link").dataset.link = link;
     setText("link", kLinkTexts[link]);
     element("readouts").classList.toggle("stale", link !== "live");
+    // A silent server gets what is sent when it goes on.
+    for (const group of document.querySelectorAll<HTMLFieldSetElement>("fieldset.of-server")) {
+      group.disabled = link === "connecting" || link === "lost";
+    }
     if (link !== "live") {
       element("safety").dataset.safety = "OFF";
       element("rearm").hidden = true;
       element("fault").hidden = true;
       element("softened").hidden = true;
       setText("safety-state", "Not known");
+      ["force", "force-badge", "penetration", "contacts"].forEach((id) => setText(id, kUnknown));
     }
   }
 
@@ -113,6 +118,7 @@ export class Panel {
     this.pending_.clear();
     this.showName(hello.sceneName || "–");
     this.buttons_.forget();
+    setText("model-size", "not received yet");
     const label = hello.device?.label;
     const device = (label ? `${label}: ` : "") + (hello.device?.name || "–");
     setText("device", device);
@@ -144,13 +150,14 @@ export class Panel {
       this.showName(layout.name);
     }
     const parts: [number, string][] = [
-      [counts.objects > 1 ? counts.objects : 0, "objects"],
-      [counts.triangles, "triangles"],
-      [counts.segments, "segments"],
-      [counts.points, "points"],
+      [counts.objects > 1 ? counts.objects : 0, "object"],
+      [counts.triangles, "triangle"],
+      [counts.segments, "segment"],
+      [counts.points, "point"],
     ];
     const present = parts.filter(([count]) => count > 0);
-    setText("model-size", present.map(([count, what]) => `${formatCount(count)}${kNoBreak}${what}`).join(", ") || "empty");
+    const texts = present.map(([count, noun]) => `${formatCount(count)}${kNoBreak}${nounFor(count, noun)}`);
+    setText("model-size", texts.join(", ") || "empty");
     // A black box has none.
     const radius_m = layout.proxyRadius_m > 0 ? layout.proxyRadius_m : undefined;
     setText("proxy-radius", formatSi(radius_m, "m"));

@@ -15,9 +15,23 @@ interface Entry<Value> {
   echoed: boolean;
 }
 
+export interface PendingOptions<Value> {
+  /** For so long a server is waited for that has not said the same; kGiveUp_ms unless given. */
+  readonly giveUp_ms?: number;
+  /** Whether the server has said what was set, as precisely as it keeps it. */
+  readonly same?: (set: Value, said: Value) => boolean;
+}
+
 /** One entry per control, by its name. Times in milliseconds of any one clock. */
 export class Pending<Value> {
   private readonly entries_ = new Map<string, Entry<Value>>();
+  private readonly giveUp_ms_: number;
+  private readonly same_: (set: Value, said: Value) => boolean;
+
+  constructor({ giveUp_ms = kGiveUp_ms, same = Object.is }: PendingOptions<Value> = {}) {
+    this.giveUp_ms_ = giveUp_ms;
+    this.same_ = same;
+  }
 
   /** The user has set the control. */
   set(control: string, value: Value, now_ms: number): void {
@@ -48,9 +62,9 @@ export class Pending<Value> {
     if (entry === undefined) {
       return said;
     }
-    entry.echoed ||= Object.is(entry.value, said);
+    entry.echoed ||= this.same_(entry.value, said);
     const age_ms = now_ms - entry.since_ms;
-    if (!entry.held && age_ms > (entry.echoed ? kUnderway_ms : kGiveUp_ms)) {
+    if (!entry.held && age_ms > (entry.echoed ? kUnderway_ms : this.giveUp_ms_)) {
       this.entries_.delete(control);
       return said;
     }

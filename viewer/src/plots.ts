@@ -22,7 +22,7 @@ export interface PlotOptions {
   /** The scale never shows less than this, in the unit: a resting hand must not look like an earthquake. */
   readonly smallestTop: number;
   /** What it shows in the place of the last seconds. */
-  readonly whole?: { readonly length_s: () => number; readonly now_s: () => number };
+  readonly whole?: { readonly begin_s: () => number; readonly end_s: () => number; readonly now_s: () => number };
 }
 
 const kFont = "11px system-ui, sans-serif";
@@ -97,7 +97,7 @@ function plotOptions(options: PlotOptions, host: HTMLElement, limit: () => numbe
     legend: { show: false },
     padding: [6, 16, 0, 0],
     scales: {
-      x: { time: false, range: () => (whole === undefined ? [-kWindow_s, 0] : [0, Math.max(whole.length_s(), 1e-3)]) },
+      x: { time: false, range: () => (whole === undefined ? [-kWindow_s, 0] : rangeOf(whole)) },
       y: { range: (_plot, _low, high) => [0, topOf(options.smallestTop, high || 0, limit())] },
     },
     hooks: {
@@ -129,6 +129,10 @@ function plotOptions(options: PlotOptions, host: HTMLElement, limit: () => numbe
       },
     ],
   };
+}
+
+function rangeOf({ begin_s, end_s }: NonNullable<PlotOptions["whole"]>): [number, number] {
+  return [begin_s(), Math.max(end_s(), begin_s() + 1e-3)];
 }
 
 /** Where the scale ends: with the limit in view when the values come near it. */

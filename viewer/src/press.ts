@@ -41,13 +41,16 @@ const kLift_D = -0.04;
 const kPush_D = 0.04;
 /** A hand that has come no farther for so long is held by something: it goes straight. */
 const kHeld_ms = 1000;
+/** Of that a drawn frame counts at most this: a busy page, which draws seldom, learns late how far the hand has come. */
+const kFrame_ms = 50;
 
 /** A hand led along a way until it is there, or held by something. */
 export class Errand {
   private readonly walk_: Walk;
   private readonly world_per_hand_: number;
   private came_m_ = 0;
-  private came_ms_: number | undefined;
+  private held_ms_ = 0;
+  private asked_ms_: number | undefined;
   private ended_ = false;
 
   constructor(worldPerHand: number, way: readonly Vec[]) {
@@ -59,15 +62,15 @@ export class Errand {
     return this.ended_;
   }
 
-  /** What the hand has to want now, when the proxy is at `proxy`. */
+  /** What the hand has to want now, when the proxy is at `proxy`. Once per drawn frame. */
   goal(proxy: Vec, now_ms: number): Vec {
     const next = this.walk_.next(proxy, kLead_D * this.world_per_hand_);
-    if (this.walk_.done_m > this.came_m_ || this.came_ms_ === undefined) {
-      this.came_m_ = this.walk_.done_m;
-      this.came_ms_ = now_ms;
-    }
+    const frame_ms = Math.min(now_ms - (this.asked_ms_ ?? now_ms), kFrame_ms);
+    this.held_ms_ = this.walk_.done_m > this.came_m_ ? 0 : this.held_ms_ + frame_ms;
+    this.came_m_ = Math.max(this.came_m_, this.walk_.done_m);
+    this.asked_ms_ = now_ms;
     const there = length(sub(proxy, this.walk_.end)) < kReached_D * this.world_per_hand_;
-    this.ended_ ||= there || now_ms - this.came_ms_ > kHeld_ms;
+    this.ended_ ||= there || this.held_ms_ > kHeld_ms;
     return next;
   }
 }

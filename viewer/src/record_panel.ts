@@ -13,7 +13,7 @@ export class RecordPanel {
   private readonly clerk_: RecordingClerk;
 
   constructor(
-    send: SendRecord, private readonly sceneName_: () => string, private readonly tell_: (text: string) => void,
+    send: SendRecord, private readonly sceneName_: () => string, private readonly tell_: (text: string, bad: boolean) => void,
   ) {
     this.clerk_ = new RecordingClerk(send);
     element("record").addEventListener("click", () => this.clerk_.press(newOwner()));
@@ -40,11 +40,11 @@ export class RecordPanel {
     element("record-told").hidden = news.line === "";
     setText("record-told", news.line);
     if (news.refused !== undefined) {
-      this.tell_(news.refused);
+      this.tell_(news.refused, true);
     }
     if (news.ready !== undefined && recording?.phase === Phase.READY) {
       this.fetch(news.ready);
-      this.tell_(`The recording is saved (${news.end}). hl replay runs it again; this page opens it.`);
+      this.tell_(`The recording is saved (${news.end}). hl replay runs it again; this page opens it.`, false);
     }
   }
 

@@ -16,6 +16,7 @@ const kPiece = 20_000;
 const kDigits = 9;
 
 const kNoTextures = "The file has no textures: the page does not know them. What they change is as without them.";
+const kNoColours = "The file has no colours.";
 const kOneMaterial = "Bodies of several materials have only their first one in the file.";
 const kUnmoved: ArrayLike<number> = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
@@ -65,8 +66,10 @@ function* pieces(store: SceneStore, over: SurfaceSettings, lacking: Set<string>)
     throw new Error("There is nothing to save yet: the scene has no objects.");
   }
   let objects = 0;
+  const names = namesOf(layout);
+  if (layout.placed.some(({ colour }) => colour.length > 0)) lacking.add(kNoColours);
   yield '{\n  "objects": [';
-  for (const { name, mesh, pose, part, surface, fields } of objectsOf(layout, store, lacking)) {
+  for (const { name, mesh, pose, part, surface, fields } of objectsOf(layout, names, store, lacking)) {
     objects += 1;
     if (objects > kMaxObjects) {
       throw new Error(`The scene cannot be saved: a scene file has ${kMaxObjects} objects at most.`);
@@ -79,11 +82,20 @@ function* pieces(store: SceneStore, over: SurfaceSettings, lacking: Set<string>)
     yield "\n    }";
   }
   yield "\n  ]";
-  yield* fieldsOf(mechanicsJson(layout, store.poses, nameOf), "  ");
+  yield* fieldsOf(mechanicsJson(layout, store.poses, (index) => names[index]!), "  ");
   yield "\n}\n";
 }
 
-const nameOf = (index: number): string => `object ${index + 1}`;
+/** Of each object what its scene calls it, or its number; no two the same, as joints name their bodies. */
+function namesOf(layout: Layout): string[] {
+  const used = new Set<string>();
+  return layout.placed.map(({ label }, index) => {
+    let name = label || `object ${index + 1}`;
+    for (let copy = 2; used.has(name); ++copy) name = `${label || "object"} ${copy}`;
+    used.add(name);
+    return name;
+  });
+}
 
 function* fieldsOf(fields: Record<string, unknown>, indent: string): Generator<string> {
   for (const [field, value] of Object.entries(fields)) {
@@ -102,14 +114,16 @@ interface SavedObject {
 }
 
 /** A body is one object in its own frame; of anything else each material is one, in the world, and so are its snaps and fields. */
-function* objectsOf(layout: Layout, store: SceneStore, lacking: Set<string>): Generator<SavedObject> {
+function* objectsOf(
+  layout: Layout, names: readonly string[], store: SceneStore, lacking: Set<string>,
+): Generator<SavedObject> {
   for (const [index, placed] of layout.placed.entries()) {
     const mesh = store.meshes.get(placed.mesh);
     const { body, materials } = placed;
     if (mesh === undefined || materials.length === 0) {
       throw new Error("The scene cannot be saved: the page was not told all its meshes and materials.");
     }
-    const name = nameOf(index);
+    const name = names[index]!;
     const pose = store.poses.subarray(kPoseNumbers * index, kPoseNumbers * (index + 1));
     if (body !== undefined) {
       if (materials.length > 1) lacking.add(kOneMaterial);

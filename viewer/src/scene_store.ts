@@ -69,6 +69,16 @@ export class SceneStore {
     return back.length === 0 ? away : [...new Set([...back, ...away])];
   }
 
+  /** Of meshes that no object of the layout has: of a scene that is on its way. */
+  trianglesAhead(): number {
+    const placed = new Set(this.layout_?.placed.map(({ mesh }) => mesh));
+    let triangles = 0;
+    for (const mesh of this.meshes_.values()) {
+      triangles += placed.has(mesh.number) ? 0 : mesh.triangles.length / 3;
+    }
+    return triangles;
+  }
+
   /** Of everything in the layout, each object counted. */
   counts(): Counts {
     const counts = { objects: this.layout_?.placed.length ?? 0, triangles: 0, segments: 0, points: 0 };

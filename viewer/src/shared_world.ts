@@ -42,7 +42,7 @@ export function sharedShown(state: State | undefined): SharedShown | undefined {
   const objects = `${counted(shared.objects, "object")} of others, ${counted(shared.own, "own", "own")}${fetching}`;
   return {
     title: `Shared world ${shared.world}`,
-    line: shared.ended === "" ? `This server is ${shared.name}: ${objects}` : `Not shared any more: ${shared.ended}`,
+    line: shared.ended === "" ? `This server is ${shared.name}: ${objects}` : `Not shared: ${shared.ended}`,
     ended: shared.ended !== "",
     servers: shared.peers.map((peer) => ({
       name: peer.name,

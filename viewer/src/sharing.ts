@@ -35,7 +35,12 @@ export class Sharing {
     const link = memory.link(stage.eye);
     // Also where a browser refuses to copy: there the user takes it from the notice.
     const copied = await navigator.clipboard?.writeText(link).then(() => true, () => false);
-    notices.tell(copied === true ? "The link is copied." : `The link: ${link}`, false);
+    if (copied === true) {
+      notices.tell("The link is copied.", false, "link");
+    } else {
+      notices.settle("link");
+      notices.tell(`The link: ${link}`, false);
+    }
   }
 
   async savePicture(stage: Stage): Promise<void> {
@@ -55,11 +60,13 @@ export class Sharing {
     try {
       const { content, lacking } = await sceneFile(store, over);
       saveFile(fileName(this.sceneName_(), new Date(), "hl.json"), content);
-      if (lacking !== undefined) {
-        notices.tell(lacking, false);
+      if (lacking === undefined) {
+        notices.settle("scene file");
+      } else {
+        notices.tell(lacking, false, "scene file");
       }
     } catch (error) {
-      notices.tell(error instanceof Error ? error.message : String(error), true);
+      notices.tell(error instanceof Error ? error.message : String(error), true, "scene file");
     }
   }
 

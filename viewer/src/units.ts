@@ -72,6 +72,11 @@ export function formatCount(count: number | bigint | undefined): string {
   return text.replace(/\B(?=(\d{3})+(?!\d))/g, kThinSpace);
 }
 
+/** What is counted, in the singular or the plural. */
+export function nounFor(count: number, noun: string): string {
+  return count === 1 ? noun : `${noun}s`;
+}
+
 /** A count where there is little room: from a million on with three digits. */
 export function formatShortCount(count: bigint | undefined): string {
   return count === undefined || count < kMillion ? formatCount(count) : formatSi(Number(count), "", 3);

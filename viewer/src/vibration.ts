@@ -4,9 +4,9 @@
 /** The last so many seconds are judged. */
 export const kVibrationWindow_s = 0.3;
 /** Swings below this, peak to peak, are no alarm. */
-const kLeast_N = 1;
+const kMin_N = 1;
 /** Slower ones are a hand that moves. */
-const kLeast_Hz = 15;
+const kMin_Hz = 15;
 /** Crossings of the mean count when the force goes this part of its swing beyond. */
 const kBeyond = 0.15;
 /** It is told for at least so long after it has ceased. */
@@ -43,7 +43,7 @@ export class VibrationAlarm {
   judge(times: readonly number[], forces_N: readonly number[]): Swing | undefined {
     const now_s = times[times.length - 1] ?? 0;
     const swing = swingOf(times, forces_N);
-    if (swing.force_N >= kLeast_N && swing.rate_Hz >= kLeast_Hz) {
+    if (swing.force_N >= kMin_N && swing.rate_Hz >= kMin_Hz) {
       this.told_ = { swing, at_s: now_s };
     } else if (this.told_ !== undefined && Math.abs(now_s - this.told_.at_s) > kTold_s) {
       this.told_ = undefined;

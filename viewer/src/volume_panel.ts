@@ -8,6 +8,11 @@ import { isoSliderOf, type IsoSlider, type Volume } from "./volumes";
 
 /** A slider sends at most so often: each value is another surface, and another mesh to draw. */
 const kSendPeriod_ms = 50;
+/**
+ * The server says another value with the mesh of its surface, and of a large volume that takes seconds, meanwhile those
+ * of values before it. A surface that it does not know any more is not in its layout; nothing else is refused.
+ */
+const kGiveUp_ms = 60_000;
 
 interface Row {
   readonly kind: IsoSlider;
@@ -17,8 +22,10 @@ interface Row {
 }
 
 export class VolumePanel {
-  private readonly pending_ = new Pending<number>();
-  private readonly pendingBelow_ = new Pending<boolean>();
+  private readonly pending_ = new Pending<number>({
+    giveUp_ms: kGiveUp_ms, same: (set, said) => Math.fround(set) === Math.fround(said),
+  });
+  private readonly pendingBelow_ = new Pending<boolean>({ giveUp_ms: kGiveUp_ms });
   private volumes_: readonly Volume[] = [];
   private rows_: readonly Row[] = [];
 
@@ -34,15 +41,22 @@ export class VolumePanel {
 
   /** What the server says. Sliders stay while their surfaces do, so that one can be dragged meanwhile. */
   showVolumes(volumes: readonly Volume[]): void {
-    const same = volumes.length === this.volumes_.length && volumes.every(({ name, surface, low, high }, i) => {
-      const before = this.volumes_[i]!;
-      return before.name === name && before.surface === surface && before.low === low && before.high === high;
-    });
+    const same = volumes.length === this.volumes_.length &&
+      volumes.every((volume, i) => isSame(volume, this.volumes_[i]!));
+    for (const before of this.volumes_.filter((old) => !volumes.some((volume) => isSame(volume, old)))) {
+      this.pending_.forget(String(before.surface));
+      this.pendingBelow_.forget(String(before.surface));
+    }
     this.volumes_ = volumes;
     if (!same) {
       this.rows_ = volumes.map((volume, i) => this.made(volume, isoSliderOf(volumes, i), i));
       element("volume-knobs").replaceChildren(...this.rows_.flatMap(({ slider, below }) => [slider.parentElement!, below.parentElement!]));
     }
+    this.show();
+  }
+
+  /** From time to time: the server may have been waited for long enough. */
+  follow(): void {
     this.show();
   }
 
@@ -108,9 +122,17 @@ export class VolumePanel {
     this.rows_.forEach(({ kind, slider, output, below }, index) => {
       const value = this.chosen(index);
       slider.value = String(value);
-      output.textContent = kind.text(value);
-      slider.setAttribute("aria-valuetext", kind.text(value));
+      // What is set again is read out again.
+      if (output.textContent !== kind.text(value)) {
+        output.textContent = kind.text(value);
+        slider.setAttribute("aria-valuetext", kind.text(value));
+      }
       below.checked = this.chosenBelow(index);
     });
   }
+}
+
+/** Whether it is the same surface, whatever its value. */
+function isSame(a: Volume, b: Volume): boolean {
+  return a.name === b.name && a.surface === b.surface && a.low === b.low && a.high === b.high;
 }

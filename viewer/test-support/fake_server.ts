@@ -9,7 +9,7 @@ import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { WebSocketServer, type WebSocket } from "ws";
 import {
-  LedgerMode, type OtherDeviceSchema, type PageRecordingSchema, SafetyState, ServerMessageSchema, type SharedWorldSchema,
+  LedgerMode, type OtherDeviceSchema, type PageRecordingSchema, type PlacedVolumeSchema, SafetyState, ServerMessageSchema, type SharedWorldSchema,
   SurfacesSchema, TicksEndedSchema, ViewerMessageSchema, type ViewerMessage,
 } from "../src/gen/hl_pb";
 import { kProtocolVersion } from "../src/protocol";
@@ -55,6 +55,12 @@ export class FakeServer {
   shared: MessageInitShape<typeof SharedWorldSchema> | undefined;
   remote: MessageInitShape<typeof OtherDeviceSchema>[] = [];
   silent = false;
+  /** A page that comes is told of no scene until tellScene(). */
+  withholding = false;
+  /** The largest model file that it says it takes, bytes. */
+  uploadBytes = 0n;
+  /** Surfaces of volumes in its next layout. */
+  volumes: MessageInitShape<typeof PlacedVolumeSchema>[] = [];
   buttons = 0;
   ticksEnded = create(TicksEndedSchema);
   /** How many spheres there are, side by side; the first one is touched. */
@@ -115,6 +121,15 @@ export class FakeServer {
     this.send(this.layout());
   }
 
+  /** The mesh, and then what places it. */
+  tellMesh(): void {
+    this.send(sphereMesh(64, 128));
+  }
+
+  tellScene(): void {
+    this.send(this.layout());
+  }
+
   /** As if the server ended and another one began with another scene. */
   begin(name: string, spheres: number): void {
     this.name = name;
@@ -122,6 +137,7 @@ export class FakeServer {
     this.sockets_.clients.forEach((socket) => socket.terminate());
   }
 
+  /** Ends; `start` with the same port is its return. */
   async close(): Promise<void> {
     clearInterval(this.timer_);
     this.sockets_.clients.forEach((socket) => socket.terminate());
@@ -141,10 +157,13 @@ export class FakeServer {
       { field: "dynamicFriction", name: "dynamic friction", usual: 1.5, words: "mu_d" },
       { field: "viscosityNsM", name: "viscosity", unit: "N s/m", usual: 20, words: "drag" },
     ];
-    const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: this.name, device, quantities };
+    const { name: sceneName, uploadBytes } = this;
+    const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName, device, quantities, uploadBytes };
     socket.send(encode({ case: "hello", value: hello }));
-    socket.send(encode(sphereMesh(64, 128)));
-    socket.send(encode(this.layout()));
+    if (!this.withholding) {
+      socket.send(encode(sphereMesh(64, 128)));
+      socket.send(encode(this.layout()));
+    }
   }
 
   private obey(message: ViewerMessage): void {
@@ -233,6 +252,7 @@ export class FakeServer {
       case: "layout",
       value: {
         number: this.layout_, name: this.name, proxyRadius: kProxy_m, worldPerDevice: 1,
+        volumes: this.volumes,
         placed: poses.map(() => ({ mesh: kSphereMesh, materials: [kMaterial] })), poses: bytesOf(Float32Array.from(poses.flat())),
         ...(this.spheres > 0 ? bounds : {}),
       },

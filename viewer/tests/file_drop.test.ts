@@ -19,6 +19,10 @@ class Lines {
   tell(text: string, bad: boolean): void {
     this.told.push(`${bad ? "bad" : "good"}: ${text}`);
   }
+
+  settle(about: string): void {
+    this.told.push(`settled: ${about}`);
+  }
 }
 
 const fileOf = (name: string) => new File(["x"], name);
@@ -64,6 +68,12 @@ describe("a file that is given", () => {
     })], lines);
     await drop.take([fileOf("a.obj")]);
     expect(lines).toMatchObject({ told: ["good: a.obj is open."], stood: ["reading"], standing: undefined });
+  });
+
+  test("that opens without a word ends what was told of files before", async () => {
+    const lines = new Lines();
+    await new FileDrop([opener("recordings", [".hlr"], async () => "")], lines).take([fileOf("a.hlr")]);
+    expect(lines.told).toEqual(["settled: file"]);
   });
 
   test("that fails gives its one line, and the next one is taken", async () => {

@@ -7,3 +7,13 @@ test("has sentences, and one triangle is no triangles", () => {
     "a.obj: 1 triangle; 1\u202fmm of the hand is 2.00\u202fmm of the scene. Skipped 8 of them.");
   expect(openedLine("a.obj", { triangles: 1200, world_per_device: 2, warnings: [] })).toContain("triangles;");
 });
+
+test("where there are no triangles, or more than these, what is felt is counted", () => {
+  const line = (triangles: number, primitives: number) =>
+    openedLine("a", { triangles, primitives, world_per_device: 1, warnings: [] }).split(";")[0];
+  expect(line(0, 170_688)).toBe("a: 170\u202f688 primitives");
+  expect(line(0, 1)).toBe("a: 1 primitive");
+  expect(line(12, 12)).toBe("a: 12 triangles");
+  expect(line(1, 5)).toBe("a: 5 primitives, 1 of them a triangle");
+  expect(line(1200, 5000)).toBe("a: 5\u202f000 primitives, 1\u202f200 of them triangles");
+});

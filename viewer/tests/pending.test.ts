@@ -71,3 +71,15 @@ test("another server starts with nothing pending", () => {
   pending.clear();
   expect(pending.resolve("friction", 0.1, 1)).toBe(0.1);
 });
+
+test("a server that takes long is waited for as long as is said, and may round", () => {
+  const pending = new Pending<number>({ giveUp_ms: 60_000, same: (a, b) => Math.fround(a) === Math.fround(b) });
+  pending.set("skin", -200.1, 0);
+  expect(pending.resolve("skin", -400, 10 * kGiveUp_ms)).toBe(-200.1); // what was set on the way to it
+  const said = Math.fround(-200.1);
+  expect(pending.resolve("skin", said, 20_000)).toBe(said);
+  expect(pending.resolve("skin", 7, 20_001)).toBe(7);
+  pending.set("skin", -300, 30_000);
+  expect(pending.resolve("skin", 7, 90_000)).toBe(-300);
+  expect(pending.resolve("skin", 7, 90_001)).toBe(7);
+});

@@ -65,8 +65,15 @@ test("a drag that jumps to another part comes from above again", () => {
 test("a hand that is held on its way goes straight after a second", () => {
   const from = { x: -5, y: 0, z: 1 };
   const press = new Press(kScale, hitAt(0), straight(from));
-  press.goal(from, 0);
-  press.goal(from, 900);
+  for (let now_ms = 0; now_ms <= 960; now_ms += 40) press.goal(from, now_ms);
   expect(press.coming).toBe(true);
-  expect(press.goal(from, 1100)).toEqual(press.pressed);
+  expect(press.goal(from, 1010)).toEqual(press.pressed);
+});
+
+test("a page that draws once in two seconds leads the hand along its way all the same", () => {
+  const from = { x: -5, y: 0, z: 1 };
+  const press = new Press(kScale, hitAt(0), straight(from));
+  for (let frame = 0; frame < 10; ++frame) press.goal(from, 2000 * frame);
+  expect(press.coming).toBe(true);
+  expect(press.goal(from, 20_000).z).toBeGreaterThan(0);
 });

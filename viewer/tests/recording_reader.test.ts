@@ -14,9 +14,25 @@ describe("a recording", () => {
     const shares: number[] = [];
     const recording = await readRecording(fileOf(...kWhole), (share) => shares.push(share));
     expect(recording).toMatchObject({ device: "a device", end: "stopped", servoRate_Hz: 10, blackBox: false });
-    expect(recording.length_s).toBeCloseTo(3, 9);
+    expect(recording.begin_s).toBe(0);
+    expect(recording.end_s).toBeCloseTo(3, 9);
     expect(shares.at(-1)).toBe(1);
     expect(shares.every((share, i) => i === 0 || share >= shares[i - 1]!)).toBe(true);
+  });
+
+  test("has the times of hl replay's table: from its begin on, whatever it holds first", async () => {
+    const value = { ...(kStart.value as object), beginNs: kBegin_ns - 250_000_000n };
+    const later: BlockBody = { case: "start", value };
+    const early = ticks(31);
+    (early.value as { timeNs: bigint[] }).timeNs[0] = kBegin_ns - 270_000_000n; // a tick of before the begin
+    const recording = await read(fileOf(later, kShape, kSurfaces, kScene, early, steps(31), kEnd));
+    expect(recording.begin_s).toBeCloseTo(0.25, 9);
+    expect(recording.end_s).toBeCloseTo(3.25, 9);
+    expect(recording.ticks.times[0]).toBeCloseTo(-0.02, 9);
+    expect(recording.steps.times[7]).toBeCloseTo(0.95, 9);
+    expect(momentOf(recording, 0.96).force_N).toBeCloseTo(0.7, 5);
+    // The object of the scene moves between 1 s and 2 s after kBegin_ns.
+    expect(momentOf(recording, 1.75).moves.poses[3]).toBeCloseTo(0.5, 6);
   });
 
   test("has finger, proxy, force and safety state at each time", async () => {
@@ -64,7 +80,7 @@ describe("a recording", () => {
     const damaged = Buffer.from(end);
     damaged[damaged.length - 1]! ^= 1;
     expect((await read(blobOf(...whole, damaged))).end).toBe(`its last ${end.length} bytes are cut short or damaged`);
-    expect(cut.length_s).toBeCloseTo(3, 9);
+    expect(cut.end_s).toBeCloseTo(3, 9);
   });
 
   test("has its bodies where they were, on a screw from pose to pose", async () => {

@@ -77,6 +77,17 @@ describe("a scene file", () => {
     expect(lacking).toMatch(/only their first one/);
   });
 
+  test("calls objects as their scene does, no two the same, and says that colours are not in it", async () => {
+    const store = storeOf(meshOf(), [kMaterial]);
+    const placed = ["lid", "", "lid", "object 2"].map((label) =>
+      create(PlacedMeshSchema, { mesh: 1, materials: [kMaterial], label, colour: Uint8Array.of(1, 2, 3) }));
+    store.setLayout({ ...store.layout!, placed, poses: Float32Array.from(placed.flatMap(() => [...kTurned])) });
+    const { content, lacking } = await sceneFile(store, {});
+    const { objects } = JSON.parse(await content.text()) as { objects: { name: string }[] };
+    expect(objects.map(({ name }) => name)).toEqual(["lid", "object 2", "lid 2", "object 2 2"]);
+    expect(lacking).toBe("The file has no colours.");
+  });
+
   test("says that textures are not in it, unless the user has set a number in their place", async () => {
     const { stiffness: _, ...untold } = kMaterial;
     expect((await sceneFile(storeOf(meshOf(), [untold]), {})).lacking).toMatch(/no textures/);

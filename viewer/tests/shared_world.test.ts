@@ -35,7 +35,7 @@ describe("a shared world", () => {
   test("says why it is shared no more", () => {
     const shown = sharedShown(state("hl-share has ended"))!;
     expect(shown.ended).toBe(true);
-    expect(shown.line).toBe("Not shared any more: hl-share has ended");
+    expect(shown.line).toBe("Not shared: hl-share has ended");
   });
 
   test("names a hand by its server, and by its device if there are several", () => {

@@ -74,7 +74,7 @@ describe("a screw", () => {
 
 describe("the clock", () => {
   test("plays at its speed to the end, and then anew", () => {
-    const playback = new Playback(2);
+    const playback = new Playback(0, 2);
     playback.advance(0);
     expect(playback.time_s).toBe(0);
     playback.toggle(1000);
@@ -92,7 +92,7 @@ describe("the clock", () => {
   });
 
   test("goes to a time within its length", () => {
-    const playback = new Playback(2);
+    const playback = new Playback(0, 2);
     expect([-1, 1, 9].map((time_s) => (playback.seek(time_s), playback.time_s))).toEqual([0, 1, 2]);
   });
 });
@@ -121,5 +121,15 @@ describe("the live scene that waits", () => {
     hold.take({ kind: "hello", hello });
     hold.take({ kind: "mesh", mesh: meshOf(7) });
     expect(hold.messages()).toEqual([{ kind: "hello", hello }, { kind: "mesh", mesh: meshOf(7) }]);
+  });
+
+  test("begins where its recording does, and from the end anew there", () => {
+    const playback = new Playback(3600, 3602);
+    expect([playback.time_s, playback.length_s]).toEqual([3600, 2]);
+    playback.seek(0);
+    expect(playback.time_s).toBe(3600);
+    playback.seek(9999);
+    playback.toggle(0);
+    expect(playback.time_s).toBe(3600);
   });
 });

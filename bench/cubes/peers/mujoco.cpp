@@ -12,14 +12,14 @@ namespace hl::bench {
 
 namespace {
 
-constexpr std::size_t kMostContacts = 24;  // of a cube
+constexpr std::size_t kMaxContacts = 24;  // of a cube
 
 std::string mujocoModelOf(const CubeScene& scene) {
   std::string xml = fmt::format(
       "<mujoco><option timestep='{}' gravity='0 -{} 0' cone='elliptic'/><size njmax='{}' nconmax='{}'/>"
       "<default><geom friction='{} 0 0' condim='3'/></default><worldbody>"
       "<geom type='plane' size='1 1 1' zaxis='0 1 0'/>",
-      kBodyStep_s, kEarth_m_s2, kMostContacts * 3 * scene.cubes.size(), kMostContacts * scene.cubes.size(),
+      kBodyStep_s, kEarth_m_s2, kMaxContacts * 3 * scene.cubes.size(), kMaxContacts * scene.cubes.size(),
       scene.friction);
   for (const int side : {-1, 1}) {
     if (!(scene.walls_m > 0)) continue;

@@ -9,7 +9,6 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "base/guarded_thread.h"
 #include "base/realtime.h"
 #include "device/falcon/falcon_firmware.h"
 #include "device/falcon/falcon_kinematics.h"
@@ -69,12 +68,11 @@ std::string fileOf(const std::string& firmware) {
 }  // namespace
 
 FalconChoice FalconChoice::parse(const std::string& text) {
-  constexpr std::size_t kMostDigits = 2;
+  constexpr std::size_t kMaxDigits = 2;
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
   const bool has_index = digits > 0 && (digits == text.size() || text[digits] == ',');
   if (!has_index) return {0, text};
-  if (digits > kMostDigits)
-    throw Error("there is no Falcon '" + text + "': the first is falcon:0, the second falcon:1");
+  if (digits > kMaxDigits) throw Error("there is no Falcon '" + text + "': the first is falcon:0, the second falcon:1");
   return {std::stoul(text.substr(0, digits)), text.substr(std::min(digits + 1, text.size()))};
 }
 
@@ -86,15 +84,13 @@ FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, const std
       tip_F_(kFalconCentre_F) {}
 
 void FalconDevice::open() {
-  if (running_) return;
+  if (thread_.running()) return;
   begin();
-  running_ = true;
-  thread_ = startThread("falcon", [this] { run(); });
+  thread_.start("falcon", [this] { run(); });
 }
 
 void FalconDevice::close() {
-  if (!running_.exchange(false)) return;
-  thread_.join();
+  if (!thread_.stop()) return;
   exchange_ = std::make_unique<Exchange>();
 }
 
@@ -126,7 +122,7 @@ void FalconDevice::run() {
   requestRealtime(kPriority);
   bool here = true;
   int silences = 0;
-  while (running_) {
+  while (thread_.running()) {
     const auto next = std::chrono::steady_clock::now() + kPeriod;
     silences = here && step(exchange_->wantedForce()) ? 0 : silences + 1;
     if (silences >= kMaxSilences) {

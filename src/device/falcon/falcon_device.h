@@ -2,14 +2,13 @@
 // has.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "base/guarded_thread.h"
 #include "device/device.h"
 #include "device/exchange.h"
 #include "device/falcon/falcon_protocol.h"
@@ -58,8 +57,7 @@ class FalconDevice final : public Device {
   Vec3 tip_F_;
   Vec3 angles_ = Vec3::Zero();
   bool located_ = false;  // tip and angles are those of the last reply
-  std::atomic<bool> running_{false};
-  std::thread thread_;
+  LoopThread thread_;
 };
 
 }  // namespace hl

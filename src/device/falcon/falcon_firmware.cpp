@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 
 namespace hl {
 
@@ -47,11 +46,10 @@ std::vector<std::uint8_t> readFalconFirmware(const std::string& file) {
     throw Error(
         "this Falcon needs its firmware: name the file, falcon:FILE or HL_FALCON_FIRMWARE (Novint's drivers and "
         "libnifalcon have it)");
-  std::ifstream in(file, std::ios::binary);
-  std::vector<std::uint8_t> firmware((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in.is_open() || firmware.empty() || firmware.size() > kMaxBytes)
+  const std::string firmware = contentOf(file).value_or("");
+  if (firmware.empty() || firmware.size() > kMaxBytes)
     throw Error(file + " is no firmware of a Falcon: it cannot be read, is empty or too large");
-  return firmware;
+  return {firmware.begin(), firmware.end()};
 }
 
 bool loadFalconFirmware(FalconTransport& transport, const std::vector<std::uint8_t>& firmware) {

@@ -21,7 +21,7 @@ const Vec3& centre_H() {
   return centre;
 }
 
-Vec3 toDevice(const Vec3& v_H) { return {v_H.x(), v_H.z(), -v_H.y()}; }
+Vec3 haplyToDevice(const Vec3& v_H) { return {v_H.x(), v_H.z(), -v_H.y()}; }
 Vec3 toHaply(const Vec3& v_D) { return {v_D.x(), -v_D.z(), v_D.y()}; }
 
 const json::value* memberOf(const json::value* value, std::string_view name) {
@@ -90,7 +90,7 @@ void readTurn(const json::value* grip, HaplyState& state) {
   Vec3 axis_H;
   double w = 0;
   if (!readVector(told, axis_H) || !readNumber(memberOf(told, "w"), w)) return;
-  state.stylus.turned.vec() = toDevice(axis_H);
+  state.stylus.turned.vec() = haplyToDevice(axis_H);
   state.stylus.turned.w() = w;
   state.has_grip = true;
 }
@@ -129,7 +129,7 @@ bool readHaplyMessage(std::string_view text, HaplyState& state) {
   if (state.device_id.empty()) state.device_id = idOf(device);
   Vec3 position_H;
   state.located = readVector(memberOf(memberOf(device, "state"), "cursor_position"), position_H);
-  if (state.located) state.position = toDevice(position_H - centre_H());
+  if (state.located) state.position = haplyToDevice(position_H - centre_H());
   if (const json::value* told = memberOf(memberOf(device, "status"), "calibrated"); told != nullptr && told->is_bool())
     state.calibrated = told->get_bool();
   for (const char* grips : {"verse_grip", "wireless_verse_grip"}) {

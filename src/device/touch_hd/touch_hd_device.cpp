@@ -17,9 +17,9 @@ constexpr unsigned int kCalibrated = 0x5000, kNeedsUpdate = 0x5001, kCalibration
 constexpr unsigned int kCallAgain = 1;
 
 constexpr double kMetre_mm = 1000;
-constexpr double kFastest_m_s = 3;
+constexpr double kTouchFastest_m_s = 3;
 // Of the highest values, what a person meets at first.
-constexpr double kStiffnessPart = 0.7, kDampingPart = 0.1;
+constexpr double kTouchStiffnessPart = 0.7, kTouchDampingPart = 0.1;
 
 }  // namespace
 
@@ -153,14 +153,14 @@ void TouchHdDevice::describe() {
   info_.force_max_N = number(kMaxForce);
   info_.force_continuous_N = number(kMaxContinuousForce);
   info_.stiffness_max_N_m = kMetre_mm * number(kMaxStiffness);
-  info_.stiffness_N_m = kStiffnessPart * info_.stiffness_max_N_m;
-  info_.damping_Ns_m = kDampingPart * kMetre_mm * number(kMaxDamping);
+  info_.stiffness_N_m = kTouchStiffnessPart * info_.stiffness_max_N_m;
+  info_.damping_Ns_m = kTouchDampingPart * kMetre_mm * number(kMaxDamping);
   int degrees_of_freedom = 0;
   calls.get_integer(kInputDof, &degrees_of_freedom);
   info_.has_wrist = degrees_of_freedom >= 6;
   info_.resolution_m = 55e-6;  // the vendor's sheet of the Touch, the coarsest of them
-  info_.velocity_max_m_s = kFastest_m_s;
-  info_.force_rate_max_N_s = info_.stiffness_max_N_m * kFastest_m_s;
+  info_.velocity_max_m_s = kTouchFastest_m_s;
+  info_.force_rate_max_N_s = info_.stiffness_max_N_m * kTouchFastest_m_s;
   info_.servo_rate_Hz = HdLibrary::kSchedulerRate_Hz;
 }
 

@@ -179,4 +179,15 @@ inline Interval roundOf(const Interval& d, double k) {
   return interval::outward(d.most() < k ? 1 / (2 * k) : 0, d.least() < k ? 1 / (2 * k) : 0);
 }
 
+// Of any of these.
+
+template <typename T>
+struct Turn {
+  T sine, cosine;
+};
+template <typename T>
+Turn<T> turnOf(const T& angle_rad) {
+  return {sineOf(angle_rad), cosineOf(angle_rad)};
+}
+
 }  // namespace hl

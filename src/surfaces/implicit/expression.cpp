@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/direction.h"
 #include "base/error.h"
 
 namespace hl {
@@ -15,8 +16,8 @@ class ExpressionCheck {
  public:
   void check(const Expression& in, const std::string& before, std::size_t depth) {
     const std::string where = before + nameOf(in.kind);
-    if (++nodes_ > kMostNodes) throw Error(where + ": there are more than 1000 parts in it");
-    if (depth > kMostDepth) throw Error(where + ": there are more than 24 parts in each other");
+    if (++nodes_ > kMaxNodes) throw Error(where + ": there are more than 1000 parts in it");
+    if (depth > kMaxDepth) throw Error(where + ": there are more than 24 parts in each other");
     placement(in, where);
     sizes(in, where);
     parts(in, where);
@@ -29,16 +30,15 @@ class ExpressionCheck {
   static void length(double value, const std::string& where, const char* name, bool may_be_0 = false) {
     if (may_be_0 && value == 0) return;
     if (!(value >= kShortest_m && value <= kLongest_m))
-      throw Error(where + "." + name + " must be from 1e-9 to 1e6 m" + (may_be_0 ? ", or 0" : ""));
+      throw Error(where + "." + name + " must be from 1e-9 to 1e6" + (may_be_0 ? ", or 0" : ""));
   }
 
   static void placement(const Expression& in, const std::string& where) {
     if (!in.place.allFinite() || in.place.cwiseAbs().maxCoeff() > kLongest_m)
-      throw Error(where + ".translate must be within 1e6 m");
+      throw Error(where + ".translate must be within 1e6");
     if (!(in.scale >= 1e-6 && in.scale <= 1e6)) throw Error(where + ".scale must be from 1e-6 to 1e6");
     if (!std::isfinite(in.degrees)) throw Error(where + ".degrees must be a finite number");
-    if (in.degrees != 0 && !(in.axis.norm() > 1e-9 && in.axis.norm() < 1e9))
-      throw Error(where + ".axis must be a direction that is not 0");
+    if (in.degrees != 0 && !unitOf(in.axis)) throw Error(where + ".axis must be a direction that is not 0");
   }
 
   static void sizes(const Expression& in, const std::string& where) {
@@ -61,9 +61,8 @@ class ExpressionCheck {
         if (in.radius >= in.ring) throw Error(where + ".tube must be less than its radius");
         return;
       case ExpressionKind::kHalfSpace:
-        if (!(in.normal.norm() > 1e-9 && in.normal.norm() < 1e9))
-          throw Error(where + ".normal must be a direction that is not 0");
-        if (!(std::abs(in.distance) <= kLongest_m)) throw Error(where + ".distance must be within 1e6 m");
+        if (!unitOf(in.normal)) throw Error(where + ".normal must be a direction that is not 0");
+        if (!(std::abs(in.distance) <= kLongest_m)) throw Error(where + ".distance must be within 1e6");
         return;
       case ExpressionKind::kGyroid:
         length(in.period, where, "period");
@@ -145,7 +144,7 @@ void checkExpression(const Expression& expression) { ExpressionCheck().check(exp
 
 Mat3 turnOf(const Expression& expression) {
   if (expression.degrees == 0) return Mat3::Identity();
-  return Eigen::AngleAxisd(expression.degrees * M_PI / 180, expression.axis.normalized()).toRotationMatrix();
+  return Eigen::AngleAxisd(expression.degrees * M_PI / 180, *unitOf(expression.axis)).toRotationMatrix();
 }
 
 std::optional<Box> boundsOf(const Expression& expression) {

@@ -38,9 +38,9 @@ struct Expression {
 };
 
 /// Limits of one expression.
-inline constexpr std::size_t kMostNodes = 1000, kMostDepth = 24;
+inline constexpr std::size_t kMaxNodes = 1000, kMaxDepth = 24;
 /// Of the smooth surfaces that it is made of, and of their bodies, counted once for each surface.
-inline constexpr std::size_t kMostSheets = 64, kMostBodiesOfSheets = 256;
+inline constexpr std::size_t kMaxSheets = 64, kMaxBodiesOfSheets = 256;
 
 /// Throws hl::Error, which names the part ("union.of[1].sphere"), for one that cannot be.
 void checkExpression(const Expression& expression);

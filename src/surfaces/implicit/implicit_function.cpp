@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/direction.h"
 #include "base/error.h"
 
 namespace hl {
@@ -30,7 +31,7 @@ Form joined(NodeKind kind, Form a, Form b) {
   Form form{kind, {}, {}};
   form.parts.push_back(std::move(a));
   form.parts.push_back(std::move(b));
-  if (form.sheets() > kMostSheets)
+  if (form.sheets() > kMaxSheets)
     throw Error(
         "it has more than 64 smooth surfaces: a box counts as 6, a cylinder as 3, a blend as the product of "
         "those of its parts");
@@ -39,8 +40,7 @@ Form joined(NodeKind kind, Form a, Form b) {
 
 Form negated(Form form) {
   form.smooth.negate();
-  if (form.kind != NodeKind::kSmooth)
-    form.kind = form.kind == NodeKind::kLeast ? NodeKind::kGreatest : NodeKind::kLeast;
+  if (form.kind != NodeKind::kSmooth) form.kind = form.kind == NodeKind::kMin ? NodeKind::kGreatest : NodeKind::kMin;
   for (Form& part : form.parts) part = negated(std::move(part));
   return form;
 }
@@ -90,7 +90,7 @@ Form halfSpaceIn(const Frame& frame, const Vec3& normal, double distance) {
   Frame turned = frame;
   turned.turn = frame.turn * Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal).toRotationMatrix();
   SmoothBody body = bodyIn(turned, BodyKind::kHalfSpace, 0);
-  body.axes.row(2) = (frame.turn * normal.normalized()).transpose() / frame.scale;
+  body.axes.row(2) = (frame.turn * normal).transpose() / frame.scale;
   body.offset.z() = -body.axes.row(2).dot(frame.place);
   body.shift = -frame.scale * distance;
   return formOf(body);
@@ -140,10 +140,10 @@ Form partsOf(const Expression& in, const Frame& frame) {
     const bool least = in.kind == ExpressionKind::kUnion;
     if (in.kind == ExpressionKind::kDifference) part = negated(std::move(part));
     if (reach == 0) {
-      form = joined(least ? NodeKind::kLeast : NodeKind::kGreatest, std::move(form), std::move(part));
+      form = joined(least ? NodeKind::kMin : NodeKind::kGreatest, std::move(form), std::move(part));
       continue;
     }
-    if (form.sheets() * part.sheets() > kMostSheets) throw Error("it blends more smooth surfaces than 64");
+    if (form.sheets() * part.sheets() > kMaxSheets) throw Error("it blends more smooth surfaces than 64");
     form = least ? blended(form, part, reach)
                  : negated(blended(negated(std::move(form)), negated(std::move(part)), reach));
   }
@@ -167,7 +167,7 @@ Form formOf(const Expression& in, const Frame& before) {
       return formOf(body);
     }
     case ExpressionKind::kHalfSpace:
-      return halfSpaceIn(frame, in.normal, in.distance);
+      return halfSpaceIn(frame, *unitOf(in.normal), in.distance);
     case ExpressionKind::kGyroid:
       return gyroidIn(frame, in);
     case ExpressionKind::kShell:
@@ -197,7 +197,7 @@ std::uint16_t flatten(Form& form, std::vector<SmoothFunction>& sheets, std::vect
 ImplicitFunction::ImplicitFunction(const Expression& expression) {
   checkExpression(expression);
   Form form = formOf(expression, Frame());
-  if (form.bodies() > kMostBodiesOfSheets)
+  if (form.bodies() > kMaxBodiesOfSheets)
     throw Error("it has more than 256 bodies, counted once for each smooth surface");
   root_ = flatten(form, sheets_, nodes_);
   conditions_.resize(sheets_.size());
@@ -212,7 +212,7 @@ void ImplicitFunction::addConditions(std::uint16_t number, std::vector<Condition
     conditions_[node.first] = above;
     return;
   }
-  const double sign = node.kind == NodeKind::kLeast ? 1 : -1;
+  const double sign = node.kind == NodeKind::kMin ? 1 : -1;
   for (const auto& [one, other] : {std::pair(node.first, node.second), std::pair(node.second, node.first)}) {
     above.push_back({other, sign});
     addConditions(one, above);
@@ -224,7 +224,7 @@ double ImplicitFunction::at(std::size_t number, const Vec3& p) const {
   const Node& node = nodes_[number];
   if (node.kind == NodeKind::kSmooth) return sheets_[node.first].at(p);
   const double a = at(node.first, p), b = at(node.second, p);
-  return node.kind == NodeKind::kLeast ? std::min(a, b) : std::max(a, b);
+  return node.kind == NodeKind::kMin ? std::min(a, b) : std::max(a, b);
 }
 
 std::size_t ImplicitFunction::bytes() const {

@@ -20,7 +20,7 @@ class ImplicitFunction {
  public:
   /// The least or the greatest of two nodes, or a smooth function.
   struct Node {
-    enum class Kind : std::uint8_t { kSmooth, kLeast, kGreatest } kind;
+    enum class Kind : std::uint8_t { kSmooth, kMin, kGreatest } kind;
     std::uint16_t first, second;  ///< nodes, or the number of a smooth function
   };
   /// sign * (value of the node) >= 0.

@@ -10,13 +10,13 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostKnown = 1U << 15;  // bricks of all sheets together
+constexpr std::size_t kMaxKnown = 1U << 15;  // bricks of all sheets together
 
 }  // namespace
 
 ImplicitIndex::ImplicitIndex(const std::vector<Sheet>& sheets, const GridFrame& frame, const Box& bounds, double cell)
     : WalkedIndex(frame, bounds, cell), sheets_(sheets), frame_(frame) {
-  for (const Sheet& sheet : sheets) known_.push_back(findBricks(sheet, kMostKnown / sheets.size()));
+  for (const Sheet& sheet : sheets) known_.push_back(findBricks(sheet, kMaxKnown / sheets.size()));
 }
 
 // A look at a brick costs as much as its function has bodies.

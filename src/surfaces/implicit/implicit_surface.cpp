@@ -17,7 +17,7 @@ namespace hl {
 namespace {
 
 // Of the longest to the shortest height of a cell: then the flattest of its triangles is still one (kSliver).
-constexpr double kMostStretchedCell = 50;
+constexpr double kMaxStretchedCell = 50;
 
 /// Calls visit(id, triangle) for each triangle of a brick and what is beneath it.
 template <typename Visit>
@@ -109,7 +109,7 @@ void ImplicitSurface::place() {
     longest = std::max(longest, frame_.axes.col(axis).norm());
     thinnest = std::min(thinnest, 1 / across_.row(axis).norm());
   }
-  if (!(longest <= kMostStretchedCell * thinnest))
+  if (!(longest <= kMaxStretchedCell * thinnest))
     throw Error("an implicit surface is stretched to more than 50 times as long as thin");
   for (int corner = 0; corner < 8; ++corner) {
     const Box& box = list_->bounds;
@@ -142,7 +142,7 @@ Vec3 ImplicitSurface::trueNormal(ElementId id, const Vec3& point) const {
 }
 
 std::unique_ptr<const SpatialIndex> ImplicitSurface::makeIndex() const {
-  return std::make_unique<ImplicitIndex>(list_->sheets, frame_, bounds_, longestOf(frame_.axes) * steps()[0]);
+  return std::make_unique<ImplicitIndex>(list_->sheets, frame_, bounds_, steps()[0]);
 }
 
 SharedMemory ImplicitSurface::shared() const { return {list_.get(), list_->bytes()}; }
@@ -167,7 +167,7 @@ DrawnMesh ImplicitSurface::drawn(std::size_t most_triangles) const {
   const double many = list_->triangles / std::max<double>(1, static_cast<double>(most_triangles));
   for (double factor = std::max(1.0, std::sqrt(many));; factor *= 1.4) {
     DrawnMesh mesh = drawnCoarser(factor);
-    const bool coarsest = factor > SheetGrid::kMostCells;
+    const bool coarsest = factor > SheetGrid::kMaxCells;
     if (coarsest || mesh.triangles.size() <= most_triangles) return mesh;
   }
 }
@@ -183,8 +183,9 @@ std::size_t ImplicitSurface::sheets() const { return list_->sheets.size(); }
 
 std::array<double, 2> ImplicitSurface::steps() const {
   std::array<double, 2> steps{Interval::kNoEnd, 0};
+  const double longest = longestOf(frame_.axes);
   for (const Sheet& sheet : list_->sheets)
-    steps = {std::min(steps[0], sheet.grid().step), std::max(steps[1], sheet.grid().step)};
+    steps = {std::min(steps[0], longest * sheet.grid().step), std::max(steps[1], longest * sheet.grid().step)};
   return steps;
 }
 

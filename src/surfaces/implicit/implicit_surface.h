@@ -49,7 +49,7 @@ class ImplicitSurface final : public PrimitiveSource {
   /// From the coordinates of the expression to m.
   const GridFrame& frame() const { return frame_; }
   std::size_t sheets() const;
-  /// m: the side of the smallest and of the largest cells, before they are placed.
+  /// m: the side of the smallest and of the largest cells, where they are placed; of a stretched one the longest.
   std::array<double, 2> steps() const;
 
  private:

@@ -79,14 +79,9 @@ Jet<N, kOrder> operator*(const Jet<N, kOrder>& a, const Jet<N, kOrder>& b) {
 }
 
 template <typename N, int kOrder>
-Jet<N, kOrder> sineOf(const Jet<N, kOrder>& u) {
-  const N sine = sineOf(u.value);
-  return jet::composed(u, sine, cosineOf(u.value), -sine);
-}
-template <typename N, int kOrder>
-Jet<N, kOrder> cosineOf(const Jet<N, kOrder>& u) {
-  const N cosine = cosineOf(u.value);
-  return jet::composed(u, cosine, -sineOf(u.value), -cosine);
+Turn<Jet<N, kOrder>> turnOf(const Jet<N, kOrder>& u) {
+  const auto [sine, cosine] = turnOf(u.value);
+  return {jet::composed(u, sine, cosine, -sine), jet::composed(u, cosine, -sine, -cosine)};
 }
 template <typename N, int kOrder>
 Jet<N, kOrder> blendOf(const Jet<N, kOrder>& a, const Jet<N, kOrder>& b, double k) {

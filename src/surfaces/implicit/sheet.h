@@ -15,7 +15,7 @@ namespace hl {
 
 /// Cells are cubes. Coordinates are those of the function, in m.
 struct SheetGrid {
-  static constexpr std::uint32_t kMostCells = 1U << 16;  ///< along an axis
+  static constexpr std::uint32_t kMaxCells = 1U << 16;  ///< along an axis
 
   Vec3 origin = Vec3::Zero();
   double step = 1;

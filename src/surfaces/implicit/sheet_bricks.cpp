@@ -128,7 +128,8 @@ void SheetBricks::sift(int level, BrickParts& parts) {
       const Vec3 normal = curved_ ? Vec3(jet.slope[0].of[i], jet.slope[1].of[i], jet.slope[2].of[i]) : normal_;
       const double most = (rest + half * normal.cwiseAbs().sum()) * (1 + kTriangleRounding);
       if (std::abs(jet.value.of[i]) > most) continue;
-      if (pieces.touched(middle[i], jet.value.of[i], normal, rest)) parts[kept++] = parts[first + i];
+      BrickPart& part = parts[first + i];
+      if (pieces.touched(middle[i], jet.value.of[i], normal, rest, part.order)) parts[kept++] = part;
     }
   }
   parts.resize(kept);

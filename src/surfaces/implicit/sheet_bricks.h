@@ -43,6 +43,13 @@ class SheetBricks {
   const Vec3& low() const { return low_; }
   const Vec3& high() const { return high_; }
   bool mayCross(const Vec3& middle) const { return !(std::abs(value_ + normal_.dot(middle - middle_)) > crossing_); }
+  template <typename Visit>
+  void forEachPart(int level, const Place& first, const Place& end, const Visit& visit) const {
+    const double side = partSide(level);
+    forEachPlace(first, end, [&](const Place& at) {
+      if (mayCross(origin() + side * Vec3(at[0] + 0.5, at[1] + 0.5, at[2] + 0.5))) visit(at);
+    });
+  }
   void sift(int level, BrickParts& parts);
   std::size_t cost() const { return cost_ * sheet_.smooth().bodies(); }
   /// visit(id, triangle) with its corners in m.

@@ -19,7 +19,7 @@ class Clip {
     whole.count = 3;
     for (std::size_t i = 0; i < 3; ++i) whole.corners[i] = {triangle_[i], Vec3::Unit(static_cast<Eigen::Index>(i))};
     const auto conditions = function_.conditions(sheet);
-    std::array<Pending, kMostSheets> pending;
+    std::array<Pending, kMaxSheets> pending;
     const std::size_t count = std::min(conditions.size(), pending.size());
     for (std::size_t i = 0; i < count; ++i)
       pending[i] = {conditions[i].node, conditions[i].sign, slack, i + 1 < count ? &pending[i + 1] : nullptr};
@@ -30,13 +30,13 @@ class Clip {
   }
 
  private:
-  static constexpr std::size_t kMostCorners = 12;
+  static constexpr std::size_t kMaxCorners = 12;
   /// `weight`: of the corners of the triangle.
   struct Corner {
     Vec3 at, weight;
   };
   struct Polygon {
-    std::array<Corner, kMostCorners> corners;
+    std::array<Corner, kMaxCorners> corners;
     std::size_t count = 0;
   };
   /// sign * value + slack >= 0, and what must hold beside it.
@@ -58,7 +58,7 @@ class Clip {
       return;
     }
     const Pending second{node.second, sign, slack, next};
-    if ((node.kind == ClipNode::Kind::kLeast) == (sign > 0)) {
+    if ((node.kind == ClipNode::Kind::kMin) == (sign > 0)) {
       const Pending both{node.first, sign, slack, &second};
       return keep(polygon, &both);
     }
@@ -86,7 +86,7 @@ class Clip {
   }
 
   void add(const Corner& corner, Polygon& polygon) {
-    if (polygon.count == kMostCorners) {
+    if (polygon.count == kMaxCorners) {
       full_ = true;
       return;
     }
@@ -95,7 +95,7 @@ class Clip {
 
   void emit(const Polygon& polygon) {
     for (std::size_t i = 2; i < polygon.count; ++i) {
-      if (out_.count == kMostPieces) {
+      if (out_.count == kMaxPieces) {
         full_ = true;
         return;
       }

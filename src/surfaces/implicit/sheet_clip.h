@@ -12,16 +12,16 @@
 
 namespace hl {
 
-inline constexpr std::size_t kMostPieces = 32;
+inline constexpr std::size_t kMaxPieces = 32;
 
 /// Triangles with the orientation of the one that was cut.
 struct SheetPieces {
   std::size_t count = 0;
-  std::array<std::array<Vec3, 3>, kMostPieces> triangles;
+  std::array<std::array<Vec3, 3>, kMaxPieces> triangles;
 };
 
 /// `slack`: how much below 0 a condition's value may be; then what two sheets keep overlaps at the edge between them,
-/// where otherwise a gap would be. A triangle that falls into more than kMostPieces stays whole. RT-safe.
+/// where otherwise a gap would be. A triangle that falls into more than kMaxPieces stays whole. RT-safe.
 void clipToSheet(const ImplicitFunction& function, std::size_t sheet, double slack, const std::array<Vec3, 3>& triangle,
                  SheetPieces& out);
 

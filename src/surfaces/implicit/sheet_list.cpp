@@ -13,15 +13,17 @@ namespace hl {
 
 namespace {
 
-constexpr double kLeastError_m = 1e-9, kMostError_m = 1;
-/// Of all sheets together, and of one at least.
-constexpr std::size_t kMostLooks = 80'000, kLeastLooks = 4'000;
+constexpr double kMinError_m = 1e-9, kMaxError_m = 1;
+/// Of all sheets together, and of one. A sheet that others cut off has some ten times the looks for a box, as each of
+/// these is one; most sheets end long before.
+constexpr std::size_t kLooksOfAll = 400'000, kMaxLooks = 80'000, kMinLooks = 4'000;
 /// Sides of cells: of a radius of curvature, so that no smooth part can hide between samples; of the whole.
 constexpr double kOfRadius = 0.25, kOfSize = 0.125;
 /// Of a cell: what is looked at beside the sheet, and what must be, as a diagonal is that long.
-constexpr double kMargin = 2, kLeastMargin = 1.8;
+constexpr double kMargin = 2, kMinMargin = 1.8;
 constexpr std::size_t kPatience = 8;      // times as many where these tell nothing
-constexpr int kMostAttempts = 4;          // to find a margin
+constexpr int kMaxAttempts = 4;           // to find a good margin
+constexpr int kMaxPatience = 16;          // to find any: what curves beside a plane may be far smaller than it
 constexpr double kSlackRounding = 1e-12;  // of coordinates
 
 // Bounds that are found are a little larger, so that no flat side lies in their own.
@@ -30,7 +32,7 @@ Box boundsFor(const ImplicitSpec& spec) {
     const Box& box = *spec.bounds;
     const bool sound = box.min.allFinite() && box.max.allFinite() && box.size().minCoeff() > 1e-9 &&
                        box.min.cwiseAbs().maxCoeff() <= 1e6 && box.max.cwiseAbs().maxCoeff() <= 1e6;
-    if (!sound) throw Error("bounds must be a box within 1e6 m, with min below max by more than 1e-9 m");
+    if (!sound) throw Error("bounds must be a box within 1e6, with min below max by more than 1e-9");
     return box;
   }
   const std::optional<Box> own = boundsOf(spec.expression);
@@ -44,8 +46,8 @@ std::string tooSharp(const Vec3& at, double error_m) {
   std::array<char, 256> line{};
   std::snprintf(
       line.data(), line.size(),
-      "near (%.4g, %.4g, %.4g) m its surface is too sharp, too thin or too large for an error of %.3g m: allow "
-      "more, or round it off",
+      "near (%.4g, %.4g, %.4g), in its own lengths before transform and units, its surface is too sharp, too thin or "
+      "too large for an error of %.3g: allow more, or round it off",
       at.x(), at.y(), at.z(), error_m);
   return line.data();
 }
@@ -53,10 +55,11 @@ std::string tooSharp(const Vec3& at, double error_m) {
 }  // namespace
 
 SheetList::SheetList(const ImplicitSpec& of) : spec(of), function(of.expression), within(boundsFor(of)) {
-  if (!(spec.error_m >= kLeastError_m && spec.error_m <= kMostError_m)) throw Error("error must be from 1e-9 to 1 m");
+  if (!(spec.error_m >= kMinError_m && spec.error_m <= kMaxError_m)) throw Error("error must be from 1e-9 to 1");
   const std::size_t count = function.sheets().size();
   sheets.reserve(count);
-  for (std::size_t number = 0; number < count; ++number) add(number, std::max(kLeastLooks, kMostLooks / count));
+  const std::size_t looks = std::clamp(kLooksOfAll / count, kMinLooks, kMaxLooks);
+  for (std::size_t number = 0; number < count; ++number) add(number, looks);
   if (sheets.empty()) throw Error("there is no surface within its bounds");
 }
 
@@ -65,7 +68,8 @@ double SheetList::errorOf(std::size_t number) const {
   return function.conditions(number).empty() ? spec.error_m : spec.error_m / 3;
 }
 
-// The bound must hold a cell beside the sheet, so it is found once to know how large cells are, and once more.
+// The bound must hold a cell beside the sheet, so it is found once to know how large cells are, and once more. There it
+// may turn out that the sheet is nowhere after all: what is left of a sheet just within another body.
 void SheetList::add(std::size_t number, std::size_t most_looks) {
   const double most_error = errorOf(number);
   const auto stepFor = [&](const SheetMeasure& measure) {
@@ -83,17 +87,19 @@ void SheetList::add(std::size_t number, std::size_t most_looks) {
   if (measure.bounds.empty()) return;
   double step = 0;
   double margin = std::isfinite(measure.bend_per_m) ? kMargin * stepFor(measure) : 0;
-  for (int attempt = 0; attempt < kMostAttempts && step < margin / kLeastMargin; ++attempt, margin *= 0.5) {
+  for (int attempt = 0; attempt < (step > 0 ? kMaxAttempts : kMaxPatience) && step < margin / kMinMargin;
+       ++attempt, margin *= 0.5) {
     search.widen(margin);
     search.refine(most_looks / 3);
     const SheetMeasure wide = search.result();
-    const double possible = std::min(stepFor(wide), margin / kLeastMargin);
+    if (wide.bounds.empty()) return;
+    const double possible = std::min(stepFor(wide), margin / kMinMargin);
     if (!(std::isfinite(wide.bend_per_m) && possible > step)) continue;
     step = possible;
     measure = wide;
   }
   const double cells = measure.bounds.size().maxCoeff() / step + 1;
-  if (!(cells < SheetGrid::kMostCells)) throw Error(tooSharp(measure.sharpest, spec.error_m));
+  if (!(cells < SheetGrid::kMaxCells)) throw Error(tooSharp(measure.sharpest, spec.error_m));
   SheetGrid grid{measure.bounds.min - Vec3::Constant(0.3 * step), step, {}};
   for (std::size_t axis = 0; axis < 3; ++axis)
     grid.cells[axis] =

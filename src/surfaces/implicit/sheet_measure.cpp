@@ -14,7 +14,7 @@ Interval valueOver(const ImplicitFunction& function, std::size_t number, const S
   const ImplicitFunction::Node& node = function.node(number);
   if (node.kind == ImplicitFunction::Node::Kind::kSmooth) return function.sheets()[node.first].over(box);
   const Interval a = valueOver(function, node.first, box), b = valueOver(function, node.second, box);
-  if (node.kind == ImplicitFunction::Node::Kind::kLeast) return {std::min(a.low, b.low), std::min(a.high, b.high)};
+  if (node.kind == ImplicitFunction::Node::Kind::kMin) return {std::min(a.low, b.low), std::min(a.high, b.high)};
   return {std::max(a.low, b.low), std::max(a.high, b.high)};
 }
 

@@ -44,7 +44,8 @@ T ownValue(const SmoothBody& body, const std::array<T, 3>& p) {
     case BodyKind::kGyroid:
       break;
   }
-  return (sineOf(p[0]) * cosineOf(p[1]) + sineOf(p[1]) * cosineOf(p[2])) + sineOf(p[2]) * cosineOf(p[0]);
+  const Turn<T> x = turnOf(p[0]), y = turnOf(p[1]), z = turnOf(p[2]);
+  return (x.sine * y.cosine + y.sine * z.cosine) + z.sine * x.cosine;
 }
 
 template <typename Result, typename Number>
@@ -80,7 +81,7 @@ void SmoothFunction::shift(double by) {
 template <typename Result, typename Number>
 Result SmoothFunction::evaluated(const std::array<Number, 3>& p) const {
   if (steps_.size() == 1) return valueOfBody<Result>(steps_.front().body, p);
-  std::array<Result, kMostWaiting> waiting;
+  std::array<Result, kMaxWaiting> waiting;
   std::size_t count = 0;
   for (const Step& step : steps_) {
     if (step.blend == 0) {

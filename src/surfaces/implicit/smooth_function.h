@@ -30,7 +30,7 @@ struct SmoothBody {
 class SmoothFunction {
  public:
   /// No function needs more values at once.
-  static constexpr std::size_t kMostWaiting = 12;
+  static constexpr std::size_t kMaxWaiting = 12;
   using Space = std::array<Interval, 3>;
 
   SmoothFunction() = default;
@@ -41,7 +41,7 @@ class SmoothFunction {
   void shift(double by);
 
   std::size_t bodies() const { return (steps_.size() + 1) / 2; }
-  bool fits() const { return waiting_ <= kMostWaiting; }
+  bool fits() const { return waiting_ <= kMaxWaiting; }
   /// Half the sides of a box that holds, wherever it is, all values that there are; nothing: no box does.
   std::optional<Vec3> halfPeriod() const;
 

@@ -12,7 +12,7 @@ export interface Triangles {
 
 export const kMeshEndings = [".obj", ".stl", ".ply"] as const;
 
-const kMostTriangles = 1_000_000;
+const kMaxTriangles = 1_000_000;
 
 function geometriesOf(ending: string, bytes: ArrayBuffer): BufferGeometry[] {
   if (ending === ".stl") return [new STLLoader().parse(bytes)];
@@ -40,7 +40,7 @@ export function readMesh(ending: string, bytes: ArrayBuffer): Triangles {
   const cornersOf = (part: BufferGeometry) => part.index?.count ?? part.getAttribute("position").count;
   const corners = parts.reduce((sum, part) => sum + cornersOf(part) - (cornersOf(part) % 3), 0);
   if (corners === 0) throw new Error("there is no triangle in it");
-  if (corners > 3 * kMostTriangles) throw new Error("it has more than a million triangles");
+  if (corners > 3 * kMaxTriangles) throw new Error("it has more than a million triangles");
   const vertices = parts.reduce((sum, part) => sum + part.getAttribute("position").count, 0);
   const out: Triangles = { positions: new Float64Array(3 * vertices), triangles: new Uint32Array(corners) };
   let vertex = 0;

@@ -6,7 +6,7 @@ import { formatSi } from "../units";
 import { engine } from "./engine_worker";
 import { kMeshEndings, type Triangles } from "./mesh_file";
 
-const kMost_bytes = 100e6;
+const kMax_bytes = 100e6;
 const kPatience_ms = 60_000;
 
 /** What reads it ends when it has, when it fails, and when it takes too long. */
@@ -45,8 +45,8 @@ export class ModelFile implements FileOpener {
   async open(file: File, tell: (line: string) => void): Promise<string> {
     const name = shownName(file.name);
     if (file.size === 0) throw new Error(`${name} is empty.`);
-    if (file.size > kMost_bytes)
-      throw new Error(`${name} has ${formatSi(file.size, "B")}; this page reads ${formatSi(kMost_bytes, "B")} at most.`);
+    if (file.size > kMax_bytes)
+      throw new Error(`${name} has ${formatSi(file.size, "B")}; this page reads ${formatSi(kMax_bytes, "B")} at most.`);
     tell(`Reading ${name}…`);
     this.expect_(true);
     try {

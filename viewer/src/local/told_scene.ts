@@ -2,7 +2,9 @@
 // numbers in the order of web/hl_web.h.
 
 import type { MessageInitShape } from "@bufbuild/protobuf";
-import type { PlacedFieldSchema, PlacedJointSchema, PlacedMeshSchema, PlacedSnapSchema } from "../gen/hl_pb";
+import {
+  JointKind, type PlacedFieldSchema, type PlacedJointSchema, type PlacedMeshSchema, type PlacedSnapSchema,
+} from "../gen/hl_pb";
 import { kPoseNumbers } from "../scene_messages";
 import { encode } from "./encode";
 import { Numbers, type Module } from "./engine";
@@ -125,9 +127,11 @@ function boundsOf(positions: Float32Array) {
 function jointOf(module: Module, joint: number): MessageInitShape<typeof PlacedJointSchema> {
   const n = new Numbers(module, module._hlWebJoint(joint));
   const [kind, bodyA, bodyB] = [n.next(), n.next(), n.next()];
-  const places = { kind, anchor: n.vec(), anchorB: n.vec(), axis: n.vec() };
+  const [anchor, anchorB, axis] = [n.vec(), n.vec(), n.vec()];
+  const hasAxis = kind === JointKind.HINGE || kind === JointKind.SLIDER;
+  const places = { anchor, ...(kind === JointKind.DISTANCE ? { anchorB } : {}), ...(hasAxis ? { axis } : {}) };
   const [low, high] = [n.known(), n.known()];
-  const said = { ...places, ...(low === undefined ? {} : { low }), ...(high === undefined ? {} : { high }) };
+  const said = { kind, ...places, ...(low === undefined ? {} : { low }), ...(high === undefined ? {} : { high }) };
   return bodyB < 0 ? { joint: said, bodyA } : { joint: said, bodyA, bodyB };
 }
 

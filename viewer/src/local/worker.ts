@@ -13,7 +13,7 @@ import { ToldScene } from "./told_scene";
 const kTimer_ms = 4;
 const kState_ms = 16;
 /** Servo steps at one go: a worker that was asleep does not catch up with more. */
-const kMostSteps = 20;
+const kMaxSteps = 20;
 /** Steps between two samples of the plots. */
 const kSampleSteps = 4;
 const kRateWindow_ms = 1000;
@@ -109,7 +109,7 @@ class Server {
   private run(): void {
     const now_ms = performance.now();
     const wanted = Math.floor(now_ms - this.last_ms_);
-    const steps = Math.min(wanted, kMostSteps);
+    const steps = Math.min(wanted, kMaxSteps);
     for (let done = 0; done < steps; done += kSampleSteps) this.step(Math.min(kSampleSteps, steps - done));
     this.last_ms_ += wanted;
     this.count(steps, now_ms);

@@ -7,7 +7,7 @@ import { indexAt } from "./track";
 
 const kPose = 12;
 /** Poses of all bodies together: some 100 MB while a file is read. */
-const kMost = 1_000_000;
+const kMax = 1_000_000;
 
 export interface BodyTrack {
   /** Seconds, rising. */
@@ -28,7 +28,7 @@ export class BodyTrackBuilder {
   private stride_ = 1;
   private skipped_ = new Map<bigint, number>();
 
-  constructor(private readonly most_ = kMost) {}
+  constructor(private readonly most_ = kMax) {}
 
   /** Times that do not rise are left out. */
   add(body: bigint, time_ns: number, pose: Pose): void {

@@ -8,7 +8,7 @@ import { boundsOf } from "./recorded_mesh";
 
 type Part = Pick<RecordedHeights, "columns" | "rows" | "kind" | "axes" | "origin" | "samples" | "continues"> &
   { readonly missing?: number | undefined };
-const kMostTriangles = 1_000_000;
+const kMaxTriangles = 1_000_000;
 const kReaders = [
   { bytes: 2, read: (view: DataView, at: number) => view.getInt16(at, true) },
   { bytes: 2, read: (view: DataView, at: number) => view.getUint16(at, true) },
@@ -57,7 +57,7 @@ class Drawn {
   constructor(private readonly head_: Part, private readonly read_: (place: number) => number) {
     let step = 1;
     const cells = (side: number) => Math.floor((side - 2) / step) + 1;
-    while (2 * cells(head_.columns) * cells(head_.rows) > kMostTriangles) {
+    while (2 * cells(head_.columns) * cells(head_.rows) > kMaxTriangles) {
       step += 1;
     }
     const places = (side: number) => Array.from({ length: cells(side) + 1 }, (_, i) => Math.min(i * step, side - 1));

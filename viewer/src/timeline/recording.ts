@@ -54,7 +54,9 @@ export interface Recording {
   readonly fault: string;
   /** Why it ends. */
   readonly end: string;
-  readonly length_s: number;
+  /** Times of the first and the last step; 0 is when the recording began, as in the table of `hl replay --csv`. */
+  readonly begin_s: number;
+  readonly end_s: number;
   readonly steps: Track;
   readonly ticks: Track;
   readonly scales: readonly Scale[];

@@ -40,8 +40,7 @@ export async function readRecording(file: Blob, progress: (share: number) => voi
 
 class RecordingReader {
   private start_: RecordingStart | undefined;
-  /** Time 0 of what is shown, ns. */
-  private origin_ns_: bigint | undefined;
+  private first_s_: number | undefined;
   private last_s_ = 0;
   private end_ = "";
   private readonly steps_ = new TrackBuilder(kStepColumns, kMaxSamples);
@@ -53,7 +52,6 @@ class RecordingReader {
   private mesh_bytes_ = 0;
   private lastMesh_ = 0;
   private readonly surfaces_ = new Map<bigint, readonly SurfaceSettings[]>();
-  /** Scenes wait for the first time, which their motions are told relative to. */
   private readonly messages_: SceneMessage[] = [];
   private readonly sceneNumbers_ = new Map<bigint, number>();
   private instances_ = 0;
@@ -91,19 +89,24 @@ class RecordingReader {
     if (steps.times.length === 0) {
       throw new RecordingError("holds no steps: there is nothing to show");
     }
-    const bodies = this.bodies_.tracks((time_ns) => 1e-9 * (time_ns - Number(this.origin_ns_)));
+    const bodies = this.bodies_.tracks((time_ns) => 1e-9 * (time_ns - Number(this.origin_ns)));
     const bodyNumbers = new Map([...bodies.keys()].map((id, number) => [id, number]));
     return {
       version: start.version, device: start.deviceName, begin_unix_ms: Number(start.beginUnixMs),
       servoRate_Hz: start.servoRateHz, blackBox: start.blackBox, fault: start.fault,
       end: damage ?? (this.end_ || "the program was killed"),
-      length_s: this.last_s_, steps, ticks, scales: this.scales_, meshes: [...this.meshes_.values()],
+      begin_s: this.first_s_ ?? 0, end_s: this.last_s_, steps, ticks, scales: this.scales_, meshes: [...this.meshes_.values()],
       scenes: this.messages_.map((message) => this.sceneOf(message, bodyNumbers)), bodies: [...bodies.values()],
     };
   }
 
+  /** Time 0, ns: when the recording began. Ticks may be from before. */
+  private get origin_ns(): bigint {
+    return this.start_!.beginNs;
+  }
+
   private seconds(time_ns: bigint): number {
-    return 1e-9 * Number(time_ns - (this.origin_ns_ ?? 0n));
+    return 1e-9 * Number(time_ns - this.origin_ns);
   }
 
   private addShape(shape: RecordedShape): void {
@@ -220,15 +223,14 @@ class RecordingReader {
       const penetration_m = valid ? Math.hypot(t[0] - p[0], t[1] - p[1], t[2] - p[2]) : 0;
       this.steps_.add(time_s, Math.hypot(...f), penetration_m, ...f, ...p, (flags[i]! >>> 6) & 7,
         ...(turned.length > 0 ? turned.slice(4 * i, 4 * i + 4) : kNoTurn), gripper[i] ?? 0);
+      this.first_s_ ??= time_s;
       this.last_s_ = Math.max(this.last_s_, time_s);
     });
   }
 
   /** Each time is told as the difference to the one before. */
   private eachTime(differences: readonly bigint[], act: (time_s: number, index: number) => void): void {
-    const first = differences[0]!;
-    this.origin_ns_ ??= first;
-    let time_ns = Number(first - this.origin_ns_);
+    let time_ns = Number(differences[0]! - this.origin_ns);
     differences.forEach((difference, i) => {
       time_ns += i === 0 ? 0 : Number(difference);
       act(1e-9 * time_ns, i);

@@ -62,7 +62,9 @@ export class Timeline {
 
   get recording(): RecordingShown | undefined {
     const playback = this.shown_?.playback;
-    return playback && { length_s: playback.length_s, time_s: playback.time_s, playing: playback.playing };
+    return playback && {
+      begin_s: playback.begin_s, end_s: playback.end_s, time_s: playback.time_s, playing: playback.playing,
+    };
   }
 
   open(recording: Recording, name: string): void {
@@ -70,14 +72,18 @@ export class Timeline {
       this.close();
     }
     this.hooks_.opened();
-    const playback = new Playback(recording.length_s);
+    const playback = new Playback(recording.begin_s, recording.end_s);
     this.shown_ = { recording, playback, scene: undefined, meshes: new Set(), time_s: NaN };
     document.documentElement.dataset.mode = "recorded";
     setText("recorded-name", name);
     element("recorded-name").title = name;
     setText("recorded-origin", originOf(recording));
-    this.slider_.max = String(recording.length_s);
-    this.slider_.step = String(Math.min(0.01, recording.length_s / 100) || 0.01);
+    // In this order: a slider cuts a bound that contradicts the other one.
+    this.slider_.max = String(playback.end_s);
+    const step_s = Math.min(0.01, playback.length_s / 100) || 0.01;
+    // Its steps count from there: round times are on it.
+    this.slider_.min = String(Math.floor(playback.begin_s / step_s) * step_s);
+    this.slider_.step = String(step_s);
     document.querySelector<HTMLInputElement>("input[name=speed][value='1']")!.checked = true;
     this.showPlots();
     this.slider_.focus();
@@ -135,11 +141,11 @@ export class Timeline {
     this.hooks_.scene(layout, added, [...meshes].filter((number) => !needed.has(number)));
   }
 
-  private showTime({ time_s, length_s }: Playback): void {
+  private showTime({ time_s, end_s }: Playback): void {
     const of = (seconds: number) => formatFixed(seconds, "s", kTimeDigits);
     this.slider_.value = String(time_s);
-    this.slider_.setAttribute("aria-valuetext", `${of(time_s)} of ${of(length_s)}`);
-    setText("timeline-time", `${of(time_s)} / ${of(length_s)}`);
+    this.slider_.setAttribute("aria-valuetext", `${of(time_s)} of ${of(end_s)}`);
+    setText("timeline-time", `${of(time_s)} / ${of(end_s)}`);
     Object.values(this.plots_ ?? {}).forEach((plot) => plot.redraw());
   }
 
@@ -159,14 +165,15 @@ export class Timeline {
   private plotIn(id: string, unit: string, colour: string, smallestTop: number): LivePlot {
     const host = element(id);
     const whole = {
-      length_s: () => this.shown_?.playback.length_s ?? 1,
+      begin_s: () => this.shown_?.playback.begin_s ?? 0,
+      end_s: () => this.shown_?.playback.end_s ?? 1,
       now_s: () => this.shown_?.playback.time_s ?? 0,
     };
     const plot = new LivePlot(host, { unit, series: [{ colour, fill: true }], smallestTop, whole });
     const seek = (event: PointerEvent) => {
       const playback = this.shown_?.playback;
       if (event.buttons === 1 && playback !== undefined) {
-        playback.seek(playback.length_s * plot.shareAt(event.clientX - host.getBoundingClientRect().left));
+        playback.seek(playback.begin_s + playback.length_s * plot.shareAt(event.clientX - host.getBoundingClientRect().left));
       }
     };
     host.addEventListener("pointerdown", (event) => {

@@ -1,4 +1,4 @@
-#include "page/told_bodies.h"
+#include "page/layout_bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,30 +57,30 @@ void tellJoint(const JointSpec& joint, proto::Joint& out) {
 
 }  // namespace
 
-ToldBodies ToldBodies::of(const Snapshot& snapshot) {
-  ToldBodies told{{}, snapshot.mechanics};
-  told.bodies.reserve(snapshot.instances.size());
-  for (const Instance& instance : snapshot.instances) told.bodies.push_back(instance.body);
-  return told;
+LayoutBodies LayoutBodies::of(const Snapshot& snapshot) {
+  LayoutBodies contents{{}, snapshot.mechanics};
+  contents.bodies.reserve(snapshot.instances.size());
+  for (const Instance& instance : snapshot.instances) contents.bodies.push_back(instance.body);
+  return contents;
 }
 
-bool ToldBodies::operator==(const ToldBodies& other) const {
+bool LayoutBodies::operator==(const LayoutBodies& other) const {
   return mechanics.gravity_m_s2 == other.mechanics.gravity_m_s2 &&
          std::equal(bodies.begin(), bodies.end(), other.bodies.begin(), other.bodies.end(), sameBody) &&
          std::equal(mechanics.joints.begin(), mechanics.joints.end(), other.mechanics.joints.begin(),
                     other.mechanics.joints.end(), sameJoint);
 }
 
-void addBodies(const ToldBodies& told, const Snapshot& snapshot, proto::SceneLayout& layout) {
+void addBodies(const LayoutBodies& contents, const Snapshot& snapshot, proto::SceneLayout& layout) {
   bool any = false;
-  for (std::size_t i = 0; i < told.bodies.size(); ++i) {
-    if (!told.bodies[i]) continue;
+  for (std::size_t i = 0; i < contents.bodies.size(); ++i) {
+    if (!contents.bodies[i]) continue;
     any = true;
-    tellBody(*told.bodies[i], *layout.mutable_placed(static_cast<int>(i)));
+    tellBody(*contents.bodies[i], *layout.mutable_placed(static_cast<int>(i)));
   }
   if (!any) return;
-  toProto(told.mechanics.gravity_m_s2, *layout.mutable_gravity_m_s2());
-  for (const JointSpec& joint : told.mechanics.joints) {
+  toProto(contents.mechanics.gravity_m_s2, *layout.mutable_gravity_m_s2());
+  for (const JointSpec& joint : contents.mechanics.joints) {
     std::uint32_t a = 0, b = 0;
     if (!snapshot.find(joint.body_a, a) || (joint.body_b != 0 && !snapshot.find(joint.body_b, b))) continue;
     proto::PlacedJoint& placed = *layout.add_joints();

@@ -1,4 +1,4 @@
-#include "record/open_file.h"
+#include "record/private_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -12,10 +12,6 @@
 #include "base/error.h"
 
 namespace hl {
-
-OpenFile::~OpenFile() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
 
 FilePointer makePrivateFile() {
   std::error_code error;

@@ -1,4 +1,4 @@
-// The snaps and force fields of a layout as pages are told them, so that a page can draw them and save them.
+// LayoutPlaces: the snaps and force fields of a layout, so that a page can draw them and save them.
 #pragma once
 
 #include <hl.pb.h>
@@ -14,19 +14,19 @@
 namespace hl {
 
 /// What a layout tells of the snaps and fields of a snapshot: those that count.
-struct ToldPlaces {
+struct LayoutPlaces {
   std::vector<std::shared_ptr<const SnapList>> snap_lists;  ///< one for each instance; null: it has none
   std::vector<std::shared_ptr<const FieldList>> field_lists;
   std::vector<PlacedSnap> snaps;  ///< in the order of the layout
   std::vector<PlacedField> fields;
 
-  static ToldPlaces of(const Snapshot& snapshot);
+  static LayoutPlaces of(const Snapshot& snapshot);
   /// Whether pages would be told the same.
-  bool operator==(const ToldPlaces& other) const;
+  bool operator==(const LayoutPlaces& other) const;
   /// The place in the layout of a snap of an instance; absent: it is not told.
   std::optional<std::uint32_t> indexOf(const PlacedSnap& snap) const;
 };
 
-void addPlaces(const ToldPlaces& told, proto::SceneLayout& layout);
+void addPlaces(const LayoutPlaces& contents, proto::SceneLayout& layout);
 
 }  // namespace hl

@@ -1,4 +1,4 @@
-#include "session/vec_messages.h"
+#include "io/vec_messages.h"
 
 namespace hl {
 

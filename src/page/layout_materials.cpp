@@ -1,9 +1,9 @@
-#include "page/told_materials.h"
+#include "page/layout_materials.h"
 
 namespace hl {
 
 void addMaterials(const Surfaces& surfaces, proto::PlacedMesh& placed) {
-  if (surfaces.materials.size() > kMaxToldMaterials) return;
+  if (surfaces.materials.size() > kMaxLayoutMaterials) return;
   for (const Material& material : surfaces.materials) {
     proto::Surfaces& out = *placed.add_materials();
     const google::protobuf::Reflection& reflection = *out.GetReflection();

@@ -1,4 +1,4 @@
-#include "page/told_places.h"
+#include "page/layout_places.h"
 
 #include <algorithm>
 
@@ -48,21 +48,21 @@ void tellField(const FieldSpec& field, proto::Field& out) {
 
 }  // namespace
 
-ToldPlaces ToldPlaces::of(const Snapshot& snapshot) {
-  ToldPlaces told{{}, {}, snapshot.snaps, snapshot.fields};
+LayoutPlaces LayoutPlaces::of(const Snapshot& snapshot) {
+  LayoutPlaces contents{{}, {}, snapshot.snaps, snapshot.fields};
   for (const Instance& instance : snapshot.instances) {
-    told.snap_lists.push_back(instance.snaps);
-    told.field_lists.push_back(instance.fields);
+    contents.snap_lists.push_back(instance.snaps);
+    contents.field_lists.push_back(instance.fields);
   }
-  return told;
+  return contents;
 }
 
-bool ToldPlaces::operator==(const ToldPlaces& other) const {
+bool LayoutPlaces::operator==(const LayoutPlaces& other) const {
   return samePlaced(snaps, other.snaps) && samePlaced(fields, other.fields) &&
          sameLists(snap_lists, other.snap_lists) && sameLists(field_lists, other.field_lists);
 }
 
-std::optional<std::uint32_t> ToldPlaces::indexOf(const PlacedSnap& snap) const {
+std::optional<std::uint32_t> LayoutPlaces::indexOf(const PlacedSnap& snap) const {
   const auto same = [&](const PlacedSnap& each) {
     return each.instance == snap.instance && each.number == snap.number;
   };
@@ -71,15 +71,15 @@ std::optional<std::uint32_t> ToldPlaces::indexOf(const PlacedSnap& snap) const {
   return static_cast<std::uint32_t>(at - snaps.begin());
 }
 
-void addPlaces(const ToldPlaces& told, proto::SceneLayout& layout) {
-  for (const PlacedSnap& snap : told.snaps) {
+void addPlaces(const LayoutPlaces& contents, proto::SceneLayout& layout) {
+  for (const PlacedSnap& snap : contents.snaps) {
     proto::PlacedSnap& out = *layout.add_snaps();
-    tellSnap((*told.snap_lists[snap.instance])[snap.number], *out.mutable_snap());
+    tellSnap((*contents.snap_lists[snap.instance])[snap.number], *out.mutable_snap());
     out.set_placed(snap.instance);
   }
-  for (const PlacedField& field : told.fields) {
+  for (const PlacedField& field : contents.fields) {
     proto::PlacedField& out = *layout.add_fields();
-    tellField((*told.field_lists[field.instance])[field.number], *out.mutable_field());
+    tellField((*contents.field_lists[field.instance])[field.number], *out.mutable_field());
     out.set_placed(field.instance);
   }
 }

@@ -1,0 +1,25 @@
+// Small operations on texts of bytes: what they do to ASCII, and other bytes stay as they are.
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+
+namespace hl {
+
+/// Without the letters of `around` at its ends: blanks, tabs and carriage returns.
+inline std::string_view trimmed(std::string_view text, std::string_view around = " \t\r") {
+  const std::size_t first = text.find_first_not_of(around);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(around) - first + 1);
+}
+
+/// In lower case.
+inline std::string lowered(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::tolower(c); });
+  return result;
+}
+
+}  // namespace hl

@@ -1,0 +1,24 @@
+#include "bodies/sweep_and_prune.h"
+
+#include <numeric>
+
+namespace hl {
+
+SweepAndPrune::SweepAndPrune(const World& world) : along_x_(world.bodies.size()), low_x_(world.bodies.size()) {
+  std::iota(along_x_.begin(), along_x_.end(), 0u);
+  for (const Body& body : world.bodies) {
+    reach_.push_back(body.shape.reach);
+    widest_ = std::max(widest_, body.shape.reach);
+  }
+}
+
+// The order of the step before is nearly right, so that sorting by insertion costs one pass.
+void SweepAndPrune::sort(const WorldState& state) {
+  for (std::size_t i = 0; i < low_x_.size(); ++i) low_x_[i] = state.bodies[i].centre.x() - reach_[i];
+  for (std::size_t i = 1; i < along_x_.size(); ++i) {
+    for (std::size_t j = i; j > 0 && low_x_[along_x_[j]] < low_x_[along_x_[j - 1]]; --j)
+      std::swap(along_x_[j], along_x_[j - 1]);
+  }
+}
+
+}  // namespace hl

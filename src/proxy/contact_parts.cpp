@@ -1,0 +1,49 @@
+#include "proxy/contact_parts.h"
+
+#include <algorithm>
+
+namespace hl {
+
+namespace {
+
+using Shares = std::array<double, kMaxActive>;
+
+// Shares of the contacts in the part of e that is not along their normals; their sum is 1.
+Shares frictionShares(const FixedVector<ProxyContact, kMaxActive>& contacts) {
+  Shares shares{};
+  double sum = 0;
+  for (const bool by_friction : {true, false}) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const ProxyContact& contact = contacts[i];
+      shares[i] = std::max(0.0, contact.multiplier_m) * (by_friction ? contact.static_friction : 1.0);
+      sum += shares[i];
+    }
+    if (sum > 0) break;
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    shares[i] = sum > 0 ? shares[i] / sum : 1.0 / static_cast<double>(contacts.size());
+  return shares;
+}
+
+}  // namespace
+
+ContactParts partsOf(const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e) {
+  ContactParts parts;
+  Vec3 tangential = e;
+  for (const ProxyContact& contact : contacts) tangential -= contact.multiplier_m * contact.normal;
+  const Shares shares = frictionShares(contacts);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    parts[i] = contacts[i].multiplier_m * contacts[i].normal + shares[i] * tangential;
+  return parts;
+}
+
+ContactParts contactForces_N(const ProxySettings& settings, const ProxyState& state, const TickReport& report,
+                             const Vec3& finger) {
+  const Vec3 by_contacts_m = state.position + state.rest_offset_m - finger - report.held_pull_m;
+  ContactParts forces = partsOf(report.contacts, by_contacts_m);
+  const double spring_N_m = settings.springInWorld_N_m();
+  for (std::size_t i = 0; i < report.contacts.size(); ++i) forces[i] = spring_N_m * state.stiffness * forces[i];
+  return forces;
+}
+
+}  // namespace hl

@@ -1,0 +1,27 @@
+// Contact parts: what each active contact holds of the spring, in a tick and as a force on the hand.
+//
+// Contact i holds lambda_i along its normal. The rest is friction, divided in proportion to the friction limit of each
+// contact, mu_i lambda_i, or to lambda_i if no contact has friction.
+#pragma once
+
+#include <array>
+
+#include "proxy/proxy_state.h"
+#include "proxy/solver.h"
+#include "proxy/tick_report.h"
+
+namespace hl {
+
+/// One for each contact of a report. World frame.
+using ContactParts = std::array<Vec3, kMaxActive>;
+
+/// `e`: rest of the spring - finger, m. The parts of it that the contacts hold; their sum is e, unless there is no
+/// contact. RT-safe.
+ContactParts partsOf(const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e);
+
+/// N: forces of the contacts on the hand after the tick that returned `state` and `report` for `finger`: their parts of
+/// what no snap and no matter holds, times K s. RT-safe.
+ContactParts contactForces_N(const ProxySettings& settings, const ProxyState& state, const TickReport& report,
+                             const Vec3& finger);
+
+}  // namespace hl

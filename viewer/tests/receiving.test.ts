@@ -1,0 +1,13 @@
+// What is told of a scene on its way.
+import { expect, test } from "vitest";
+import { Receiving } from "../src/receiving";
+
+test("a scene that takes long is told, with what of it has come, until it is there", () => {
+  const receiving = new Receiving();
+  expect(receiving.line(true, 0, 1000)).toBeUndefined();
+  expect(receiving.line(true, 0, 1400)).toBe("Receiving the scene…");
+  expect(receiving.line(true, 1200, 1500)).toBe("Receiving the scene… 1\u202f200\u00a0triangles so far");
+  expect(receiving.line(false, 1200, 1600)).toBeUndefined();
+  expect(receiving.line(true, 1, 1700)).toBeUndefined();
+  expect(receiving.line(true, 1, 2100)).toBe("Receiving the scene… 1\u00a0triangle so far");
+});
