@@ -111,12 +111,13 @@ bool TouchWorld::moveHandsAside(const Box& bounds, double most_s) {
   return aside;
 }
 
-// Where the scene before keeps a hand from its way, that scene goes first.
+// Where the scene before keeps a hand from its way, that scene goes first. Then nothing but a busy machine is in its way,
+// or objects whose client has gone.
 bool TouchWorld::showBase(const std::shared_ptr<const Snapshot>& base) {
-  constexpr double kPatience_s = 1;
+  constexpr double kPatience_s = 1, kPatienceInTheOpen_s = 10;
   if (!moveHandsAside(base->bounds, kPatience_s)) {
     if (!publisher_.replaceBase(makeSnapshot(std::vector<Instance>{}, base->name))) return false;
-    moveHandsAside(base->bounds, kPatience_s);
+    moveHandsAside(base->bounds, kPatienceInTheOpen_s);
   }
   return publisher_.replaceBase(base);
 }

@@ -10,7 +10,10 @@ import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { decodeServerMessage } from "../src/protocol";
 import type { Bodies } from "../src/gen/hl_pb";
 import type { Vec } from "../src/vec";
-import { expectTidyLayout, kSizes, kWindow, launch, listen, openSection, screenshot, states, type Complaints } from "./browser";
+import {
+  expectTidyLayout, kSizes, kWindow, launch, listen, openSection, pressModel, screenshot, states, untilTouched,
+  type Complaints,
+} from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 const kBlocks = fileURLToPath(new URL("../../scenes/examples/blocks.hl.json", import.meta.url));
@@ -69,9 +72,8 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
       const at = window.__hl.originOf(block);
       return { from: window.__hl.project(at), to: window.__hl.project({ ...at, x: at.x + 0.06 }) };
     }, kBlock);
-    await page.mouse.move(from.x, from.y);
-    await page.mouse.down();
-    await page.waitForFunction(() => window.__hl.contacts > 0);
+    await pressModel(page, from);
+    await untilTouched(page);
     const steps = 40;
     for (let i = 1; i <= steps; ++i) {
       await page.mouse.move(from.x + (i / steps) * (to.x - from.x), from.y + (i / steps) * (to.y - from.y));

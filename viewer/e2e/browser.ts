@@ -98,6 +98,36 @@ export function states(page: Page, count = 1): Promise<void> {
   }, count);
 }
 
+/** Nearer to the pointer than this, a hand that touches nothing is taken by a press; see pointing.ts. With room to spare. */
+const kHandMarks_px = 45;
+
+/** Presses the model at a pixel. A hand that hovers there would be taken instead: it is dragged away first. */
+export async function pressModel(page: Page, at: { x: number; y: number }): Promise<void> {
+  const hovers = () => page.evaluate(({ x, y, near_px }) => {
+    const { finger, proxy, contacts, project } = window.__hl;
+    const near = (px: { x: number; y: number }) => Math.hypot(px.x - x, px.y - y) < near_px;
+    return contacts === 0 && (near(project(finger!)) || near(project(proxy!)));
+  }, { ...at, near_px: kHandMarks_px });
+  await page.mouse.move(at.x, at.y);
+  while (await hovers()) {
+    await page.mouse.down();
+    await page.mouse.move(at.x + 2 * kHandMarks_px, at.y, { steps: 5 });
+    await states(page, 10);
+    await page.mouse.up();
+    await page.mouse.move(at.x, at.y);
+  }
+  await page.mouse.down();
+}
+
+/** Waits until something is touched with such a force; else says what was. */
+export async function untilTouched(page: Page, least_N = 0): Promise<void> {
+  const touched = (least: number) => window.__hl.contacts > 0 && window.__hl.peak(0.2).force_N > least;
+  await page.waitForFunction(touched, least_N).catch(async (error: unknown) => {
+    const state = await page.evaluate(() => JSON.stringify(window.__hl));
+    throw new Error(`${String(error)}\n${state}`);
+  });
+}
+
 /** No two panels overlap, none leaves the window, none has to scroll or cuts off its text. */
 export async function expectTidyLayout(page: Page, size: { width: number; height: number }): Promise<void> {
   await resize(page, size);

@@ -2,7 +2,7 @@
 
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-import { kWindow, launch, listen, screenshot, states, type Complaints } from "./browser";
+import { kWindow, launch, listen, pressModel, screenshot, states, untilTouched, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 /** Red, green and blue of the page at a place of its window. */
@@ -54,9 +54,8 @@ describe.skipIf(!kProgram)("a cloud of surfels", () => {
 
   test("is felt where it is pressed", async () => {
     const at = await page.evaluate(() => window.__hl.project({ x: 0.12, y: 0.01, z: 0.05 }));
-    await page.mouse.move(at.x, at.y);
-    await page.mouse.down();
-    await page.waitForFunction(() => window.__hl.contacts > 0);
+    await pressModel(page, at);
+    await untilTouched(page);
     await states(page, 10);
     await screenshot(page, "clouds");
     await page.mouse.up();

@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
-import { kWindow, launch, listen, screenshot, states, type Complaints } from "./browser";
+import { kWindow, launch, listen, pressModel, screenshot, states, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 /** The proxy lies its radius above the surface, and the hand gives way: its picture is this near to the pointer. */
@@ -109,21 +109,16 @@ describe.skipIf(!kProgram)("a press on the model", () => {
     return { x: Math.round(x), y: Math.round(y) };
   });
 
-  async function press(at: { x: number; y: number }): Promise<void> {
-    await page.mouse.move(at.x, at.y);
-    await page.mouse.down();
-  }
-
   test("in the middle of the picture is felt there within two seconds", async () => {
     const at = await belly();
-    await press(at);
+    await pressModel(page, at);
     expect(await secondsUntouched(at)).toBeLessThan(2);
     await screenshot(page, "press_belly");
   });
 
   test("that is dragged slides along the surface and stays in contact", async () => {
     const from = await belly();
-    await press(from);
+    await pressModel(page, from);
     await secondsUntouched(from);
     for (let i = 1; i <= 30; ++i) {
       const at = { x: from.x - 3 * i, y: from.y + i };
@@ -136,7 +131,7 @@ describe.skipIf(!kProgram)("a press on the model", () => {
 
   test("gets deeper with the wheel and with Shift, and the force grows", async () => {
     const at = await belly();
-    await press(at);
+    await pressModel(page, at);
     await secondsUntouched(at);
     await states(page, 60);
     const light_N = (await felt(at)).force_N;
@@ -158,7 +153,7 @@ describe.skipIf(!kProgram)("a press on the model", () => {
       const middle = { x: (low!.x + high!.x) / 2, y: (low!.y + high!.y) / 2, z: (low!.z + high!.z) / 2 };
       return window.__hl.project(proxy!).depth_m > window.__hl.project(middle).depth_m;
     });
-    await press({ x, y });
+    await pressModel(page, { x, y });
     await secondsUntouched({ x, y });
     await page.mouse.up();
     await page.mouse.move(400, 200);
@@ -168,14 +163,14 @@ describe.skipIf(!kProgram)("a press on the model", () => {
     await expect.poll(behind).toBe(true);
     await states(page, 60);
     const at = await belly();
-    await press(at);
+    await pressModel(page, at);
     expect(await secondsUntouched(at)).toBeLessThan(3);
     await screenshot(page, "press_far_side");
     await page.mouse.up();
     await page.keyboard.press("r");
     await states(page, 30);
     const back = await belly();
-    await press(back);
+    await pressModel(page, back);
     expect(await secondsUntouched(back)).toBeLessThan(3);
   });
 
@@ -189,7 +184,7 @@ describe.skipIf(!kProgram)("a press on the model", () => {
       return { low: at(0.04), high: at(0.87) };
     });
     for (const at of [low, high]) {
-      await press(at);
+      await pressModel(page, at);
       await secondsUntouched(at);
       await screenshot(page, `press_${at === low ? "low" : "high"}`);
       await page.mouse.up();

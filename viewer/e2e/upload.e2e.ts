@@ -6,7 +6,10 @@ import { dirname, join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { fileOf, kWhole } from "../test-support/recording_bytes";
-import { expectTidyLayout, kSizes, kWindow, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
+import {
+  expectTidyLayout, kSizes, kWindow, launch, listen, pressModel, resize, screenshot, states, untilTouched,
+  type Complaints,
+} from "./browser";
 import { boxObj, drop } from "./files";
 import { kProgram, startTouch, type Touch } from "./programs";
 import { zipBomb } from "./zip_bomb";
@@ -73,9 +76,8 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     const onCanvas = (at: { x: number; y: number }) => at.x > 0 && at.x < 1280 && at.y > 0 && at.y < 720;
     expect(onCanvas(low) && onCanvas(high), "the box is in view").toBe(true);
     expect(Math.hypot(high.x - low.x, high.y - low.y), "and fills it").toBeGreaterThan(200);
-    await page.mouse.move(middle.x, middle.y);
-    await page.mouse.down();
-    await page.waitForFunction(() => window.__hl.contacts > 0 && window.__hl.peak(0.2).force_N > 0.2);
+    await pressModel(page, middle);
+    await untilTouched(page, 0.2);
     await states(page, 60);
     const { proxy, force_N, contacts } = await page.evaluate(() => window.__hl);
     expect(contacts).toBe(1);

@@ -2,7 +2,7 @@
 
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-import { kWindow, launch, listen, screenshot, states, type Complaints } from "./browser";
+import { kWindow, launch, listen, pressModel, screenshot, states, untilTouched, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 describe.skipIf(!kProgram)("the slider of a volume", () => {
@@ -43,16 +43,15 @@ describe.skipIf(!kProgram)("the slider of a volume", () => {
 
   test("moves the surface under the hand, from skin to bone and back", async () => {
     const at = await page.evaluate(() => window.__hl.project({ x: 0, y: 0.02, z: 0.05 }));
-    await page.mouse.move(at.x, at.y);
-    await page.mouse.down();
-    await page.waitForFunction(() => window.__hl.contacts > 0);
+    await pressModel(page, at);
+    await untilTouched(page);
     await states(page, 60);
     const onSkin = await page.evaluate(() => window.__hl.proxy!);
     await screenshot(page, "volume_skin");
     await setIso(300);
     await screenshot(page, "volume_bone");
     await setIso(-480);
-    await page.waitForFunction(() => window.__hl.contacts > 0);
+    await untilTouched(page);
     const again = await page.evaluate(() => window.__hl.proxy!);
     expect(Math.hypot(again.x - onSkin.x, again.y - onSkin.y, again.z - onSkin.z)).toBeLessThan(0.02);
     await page.mouse.up();

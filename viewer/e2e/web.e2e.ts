@@ -9,7 +9,10 @@ import { extname, join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { fileOf, kWhole } from "../test-support/recording_bytes";
-import { expectTidyLayout, kSizes, kWindow, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
+import {
+  expectTidyLayout, kSizes, kWindow, launch, listen, pressModel, resize, screenshot, states, untilTouched,
+  type Complaints,
+} from "./browser";
 import { boxObj, boxPly, boxStl, drop } from "./files";
 
 const folder = process.env.HL_WEB ?? "../build/web";
@@ -75,9 +78,8 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
   /** Presses where a point of the scene is drawn, and waits until it is felt there. */
   async function press(point: { x: number; y: number; z: number }): Promise<void> {
     const at = await page.evaluate((point) => window.__hl.project(point), point);
-    await page.mouse.move(at.x, at.y);
-    await page.mouse.down();
-    await page.waitForFunction(() => window.__hl.contacts > 0 && window.__hl.peak(0.2).force_N > 0.2);
+    await pressModel(page, at);
+    await untilTouched(page, 0.2);
   }
 
   test("has the sliders of the engine's own quantities", async () => {
