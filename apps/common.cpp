@@ -96,7 +96,9 @@ void addReadingOptions(CLI::App& command, SceneOptions& options) {
                   "value at the surface of a volume, or several as in --iso=-300,400: in CT the skin and the bones "
                   "(default: between what is empty and what is not)")
       ->delimiter(',')
-      ->check(finite());
+      ->allow_extra_args(false)  // a file may follow
+      ->check(finite())
+      ->option_text("FLOAT[,FLOAT]...");
   command.add_flag_function(
       "--below", [&options](std::int64_t said) { options.below = said > 0; },
       "the matter of a volume is where its values are below --iso, as of signed distances (--below=false: above, as in "

@@ -15,8 +15,6 @@ constexpr double kApproach_s = 3, kStartAbove_D = 0.020;
 constexpr double kPress_D = 0.012, kLift_D = 0.010;  // m, of the exploring hand
 constexpr int kStepsOfHand = 16;                     // the hand's goal is moved about 60 times a second
 
-double smallestReach_D(const DeviceInfo& info) { return (info.workspace_max - info.workspace_min).minCoeff(); }
-
 }  // namespace
 
 WebSession::WebSession(std::shared_ptr<const Snapshot> snapshot)
@@ -27,7 +25,7 @@ WebSession::WebSession(std::shared_ptr<const Snapshot> snapshot)
       settings_(ServoSettings::of(device_.info())),
       period_ns_(static_cast<std::int64_t>(1e9 / device_.info().servo_rate_Hz)) {
   settings_.period_s = 1 / device_.info().servo_rate_Hz;
-  commands_.workspace = Workspace::fit(snapshot_->bounds, std::min(kSide_D, smallestReach_D(device_.info())));
+  commands_.workspace = Workspace::fit(snapshot_->bounds, std::min(kSide_D, device_.info().smallestReach_D()));
   commands_.radius_W = kRadius_D * commands_.workspace.world_per_device;
   describeScene();
   bringToStart();

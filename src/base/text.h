@@ -1,4 +1,4 @@
-// Small operations on texts of bytes: what they do to ASCII, and other bytes stay as they are.
+// Small operations on texts of bytes: they change ASCII alone, and other bytes stay as they are.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,12 @@ inline std::string_view trimmed(std::string_view text, std::string_view around =
   const std::size_t first = text.find_first_not_of(around);
   return first == std::string_view::npos ? std::string_view()
                                          : text.substr(first, text.find_last_not_of(around) - first + 1);
+}
+
+/// Without the byte order mark of UTF-8, with which some editors begin a text.
+inline std::string_view withoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
 /// In lower case.

@@ -15,9 +15,6 @@
 
 namespace hl {
 
-/// Whether a joint of this kind has a coordinate.
-constexpr bool hasCoordinate(JointKind kind) { return kind != JointKind::kBall && kind != JointKind::kFixed; }
-
 /// Frames: that of body a for what ends in _a, that of body b for _b; the world's where body_b is 0.
 struct Joint : JointForces {
   std::uint64_t key = 0;  ///< unique among joints; > 0

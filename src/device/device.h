@@ -17,6 +17,7 @@ struct DeviceInfo {
   std::string name;
   Vec3 workspace_min = Vec3::Zero();  ///< m, box in which the tip moves freely
   Vec3 workspace_max = Vec3::Zero();
+  double smallestReach_D() const { return (workspace_max - workspace_min).minCoeff(); }  ///< m, of its sides
   double force_max_N = 0;           ///< peak force at the tip, any direction, nominal pose; less may be had elsewhere
   double force_continuous_N = 0;    ///< force that may be held for ever
   double force_rate_max_N_s = 0;    ///< the servo never changes force faster

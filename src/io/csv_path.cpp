@@ -12,6 +12,7 @@
 #include "base/plain_file.h"
 #include "base/text.h"
 #include "base/turn.h"
+#include "io/text_words.h"
 
 namespace hl {
 
@@ -27,6 +28,13 @@ struct Columns {
     return std::string(kPlace) + std::string(turned ? kTurned : "") + std::string(gripper ? kGripper : "");
   }
 };
+
+// The names of a header, without what programs write around them.
+std::string namesIn(std::string_view line) {
+  std::string names(withoutByteOrderMark(line));
+  std::erase_if(names, [](char c) { return std::string_view(" \t\r\"").find(c) != std::string_view::npos; });
+  return names;
+}
 
 bool readHeader(std::string_view line, Columns& columns) {
   for (columns.turned = false;; columns.turned = true) {
@@ -76,9 +84,9 @@ std::vector<PathSample> readPath(const std::string& file) {
   std::ifstream in(file);
   std::string line;
   std::getline(in, line);
-  if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
   Columns columns;
-  if (!readHeader(trimmed(line), columns)) throw Error(file + ":1: the first line must be the header " + kHeaders);
+  if (!readHeader(namesIn(line), columns))
+    throw Error(file + ":1: the first line must be the header " + kHeaders + "; it is '" + shown(trimmed(line)) + "'");
   std::vector<PathSample> path;
   for (std::size_t number = 2; std::getline(in, line); ++number) {
     if (trimmed(line).empty()) continue;

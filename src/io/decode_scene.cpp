@@ -243,8 +243,7 @@ JointSpec SceneDecoder::joint(const proto::Joint& in, const std::string& where) 
   spec.kind = static_cast<JointKind>(in.kind());
   spec.anchor_W = checked(in.anchor(), kMaxPlace_m, where + ".anchor");
   spec.anchor_b_W = checked(in.anchor_b(), kMaxPlace_m, where + ".anchorB");
-  const bool has_axis = spec.kind == JointKind::kHinge || spec.kind == JointKind::kSlider;
-  if (has_axis) {
+  if (hasAxis(spec.kind)) {
     const std::optional<Vec3> axis = unitOf(checked(in.axis(), kAnyLength, where + ".axis"));
     if (!axis) fail(where + ".axis", where + ": a hinge or slider needs an axis");
     spec.axis_W = *axis;

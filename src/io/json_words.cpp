@@ -51,6 +51,7 @@ std::string plainJsonWords(const std::string& said) {
   constexpr std::string_view kInvalid = "invalid value ", kFor = " for type ";
   if (said.starts_with("Cannot find field")) return "there is no such name";
   if (said.find("cannot start list") != said.npos) return "it must not be a list";
+  if (said.find("Starting an object on a scalar field") != said.npos) return "one of its values must not be an object";
   if (said.find("oneof field") != said.npos)
     return "of the values that exclude each other there is another one already";
   const std::size_t type = said.rfind(kFor);

@@ -43,10 +43,7 @@ std::string readText(const std::string& path) {
   std::error_code error;
   if (fs::file_size(path, error) > kMaxFileBytes)
     throw Error(path + ": is larger than 64 MB; put meshes in model files");
-  std::string text = contentOf(path).value_or("");
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // some editors begin a text with it
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-  return text;
+  return std::string(withoutByteOrderMark(contentOf(path).value_or("")));
 }
 
 // The textures that the material uses, by whose numbers it knows them from now on.
@@ -235,7 +232,7 @@ Model SceneFile::fileModel(const proto::SceneObject& object, const std::string& 
   try {
     files_.push_back({name, options.cad, loadModel((folder_ / name).string(), options)});
   } catch (const Error& error) {
-    fail(at, error.what());
+    fail(at, at + ": " + error.what());
   }
   return files_.back().model;
 }
@@ -284,7 +281,7 @@ void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string&
     surfaces = surfaces_.read(object);
     for (SceneSurface& surface : surfaces) surface.source = surface.source->placed(placement.linear, placement.offset);
   } catch (const Error& error) {
-    fail(at, error.what());
+    fail(at, at + ": " + error.what());
   }
   for (SceneSurface& surface : surfaces) {
     const std::string name = object.name().empty() ? where : object.name();
@@ -405,10 +402,14 @@ void SceneFile::checkPlaces(const SceneModel& scene) const {
 // Numbers from 1, as a scene's joints have them.
 std::uint64_t SceneFile::bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const {
   if (name.empty()) fail(where, where + " must name a body");
+  std::uint64_t found = 0;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].name == name) return i + 1;
+    if (scene.bodies[i].name != name) continue;
+    if (found != 0) fail(where, where + ": there are several bodies '" + name + "' in this scene");
+    found = i + 1;
   }
-  fail(where, where + ": there is no body '" + name + "' in this scene");
+  if (found == 0) fail(where, where + ": there is no body '" + name + "' in this scene");
+  return found;
 }
 
 // A joint without a part of what its author wrote would move in another way.
@@ -416,9 +417,8 @@ void SceneFile::requireOfKind(const proto::Joint& in, const JointSpec& joint, co
   const auto require = [&](bool holds, const char* name, const char* what) {
     if (!holds) fail(where + name, where + name + what);
   };
-  const bool has_axis = joint.kind == JointKind::kHinge || joint.kind == JointKind::kSlider;
   const bool is_distance = joint.kind == JointKind::kDistance;
-  require(has_axis || !in.has_axis(), ".axis", ": only a hinge or slider has an axis");
+  require(hasAxis(joint.kind) || !in.has_axis(), ".axis", ": only a hinge or slider has an axis");
   require(is_distance || !in.has_anchor_b(), ".anchorB", ": only a distance has an anchorB");
   require(!is_distance || joint.along.high > 0, ".high", " of a distance must be greater than 0");
   require(!is_distance || !in.has_low() || in.low() >= 0, ".low", " of a distance must not be below 0");

@@ -56,6 +56,13 @@ bool isUnitNormal(const PointNumbers& numbers) {
   return std::abs(normal.norm() - 1) < kRounded;
 }
 
+// "X,Y,Z" and more, as spreadsheets begin a table.
+bool namesColumns(std::string_view line) {
+  std::string letters = lowered(line);
+  std::erase_if(letters, [](char c) { return std::string_view(" \t,;\"").find(c) != std::string_view::npos; });
+  return letters.starts_with("xyz");
+}
+
 PointRecord xyzRecord(bool normals) {
   PointRecord record;
   for (const PointNumber axis : {kNormalX, kNormalY, kNormalZ}) {
@@ -76,7 +83,8 @@ std::string cloudAdvice(const std::string& ending) {
 
 void readCloud(const ModelFile& file, CloudSink& sink) { cloudReaderOf(file.ending)(file, sink); }
 
-// A first line may be the number of points. Normals are those of columns four to six, if the first has length 1.
+// A first line may be the number of points, or name the columns. Normals are those of columns four to six, if the first
+// has length 1.
 void readXyz(const ModelFile& file, CloudSink& sink) {
   ByteFile in(file.path);
   sink.header({});
@@ -84,10 +92,10 @@ void readXyz(const ModelFile& file, CloudSink& sink) {
   std::optional<PointPieces> pieces;
   std::string line;
   for (std::uint64_t number = 1; in.line(line); ++number) {
-    const std::string_view text = trimmed(line);
+    const std::string_view text = trimmed(number == 1 ? withoutByteOrderMark(line) : line);
     if (text.empty() || text.starts_with('#') || text.starts_with("//")) continue;
     const std::size_t count = numbersOf(text, numbers);
-    if (count == 1 && !pieces && number == 1) continue;
+    if (number == 1 && (count == 1 || namesColumns(text))) continue;
     if (count < 3)
       throw Error(fmt::format("is no list of points: line {} is '{}', and a point is x y z", number, shown(text)));
     if (!pieces) pieces.emplace(sink, xyzRecord(count == kColumnsThatCount && isUnitNormal(numbers)));

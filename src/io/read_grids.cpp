@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -32,14 +33,17 @@ std::optional<double> southOf(const ModelFile& file) {
 }
 
 struct EsriHeader {
-  double columns = 0, rows = 0, east = 0, south = 0, missing = -9999;
+  std::optional<double> columns, rows;
+  double east = 0, south = 0, missing = -9999;
 };
 
 // Reads up to the first word that is a number where a key should be, which is the first sample.
 double readEsriHeader(TextWords& words, EsriHeader& header) {
   std::string_view word;
+  bool is_first = true;
   while (words.next(word)) {
-    const std::string key = lowered(word);
+    const std::string key = lowered(is_first ? withoutByteOrderMark(word) : word);
+    is_first = false;
     if (key.empty() || std::isalpha(static_cast<unsigned char>(key[0])) == 0 || key == "nan")
       return words.numberOf(key, "a height");
     const double value = words.number(shown(key).c_str());
@@ -53,7 +57,9 @@ double readEsriHeader(TextWords& words, EsriHeader& header) {
   throw Error(kEndsEarly);
 }
 
-std::uint32_t sideOf(double count, const char* what) {
+std::uint32_t sideOf(std::optional<double> given, const char* what) {
+  if (!given) throw Error(fmt::format("its header lacks {}", what));
+  const double count = *given;
   if (!(count >= 2 && count <= kMaxGridSide && count == std::floor(count)))
     throw Error(fmt::format("has {:g} {}: a height field has 2 to {}", count, what, kMaxGridSide));
   return static_cast<std::uint32_t>(count);
@@ -133,6 +139,9 @@ void readEsriGrid(const ModelFile& file, HeightSink& sink) {
       row[i] = static_cast<float>(i + j == 0 ? first : words.number("a height"));
     sink.samples(row.data(), row.size() * sizeof(float));
   }
+  std::string_view rest;
+  if (words.next(rest))
+    throw Error(fmt::format("has more samples than the {} x {} of its header", size.columns, size.rows));
 }
 
 // An array in Fortran's order is a grid whose rows and columns have changed places.

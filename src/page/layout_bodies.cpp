@@ -41,7 +41,7 @@ void tellJoint(const JointSpec& joint, proto::Joint& out) {
   out.set_kind(static_cast<proto::JointKind>(joint.kind));
   toProto(joint.anchor_W, *out.mutable_anchor());
   if (joint.kind == JointKind::kDistance) toProto(joint.anchor_b_W, *out.mutable_anchor_b());
-  if (joint.kind == JointKind::kHinge || joint.kind == JointKind::kSlider) toProto(joint.axis_W, *out.mutable_axis());
+  if (hasAxis(joint.kind)) toProto(joint.axis_W, *out.mutable_axis());
   if (std::isfinite(along.low)) out.set_low(along.low);
   if (std::isfinite(along.high)) out.set_high(along.high);
   out.set_rest(along.rest);

@@ -23,6 +23,8 @@ enum class JointKind : std::uint8_t {
 };
 /// By number: "ball", "hinge", ...
 inline constexpr std::array<const char*, 5> kJointKindNames{"ball", "hinge", "slider", "fixed", "distance"};
+constexpr bool hasAxis(JointKind kind) { return kind == JointKind::kHinge || kind == JointKind::kSlider; }
+constexpr bool hasCoordinate(JointKind kind) { return kind != JointKind::kBall && kind != JointKind::kFixed; }
 
 /// What acts along the coordinate of a joint, m and N, or rad and N m.
 struct JointForces {
@@ -43,7 +45,7 @@ struct JointSpec {
   std::uint64_t body_a = 0, body_b = 0;  ///< keys of instances; body_b 0: the world, which does not move
   Vec3 anchor_W = Vec3::Zero();          ///< m
   Vec3 anchor_b_W = Vec3::Zero();        ///< m, of kDistance: that of b
-  Vec3 axis_W = Vec3::UnitX();           ///< not zero; of a hinge or slider
+  Vec3 axis_W = Vec3::UnitX();           ///< not zero; of a kind that hasAxis()
   JointForces along;
   bool collide = false;  ///< whether the two bodies also collide with each other
 

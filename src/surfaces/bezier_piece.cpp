@@ -7,11 +7,7 @@ namespace hl {
 
 namespace {
 
-using Weighted = Eigen::Vector4d;  // x, y, z and 1, each times the weight
-
-Weighted weightedOf(const ControlPoint& point) {
-  return {point.weight * point.at.x(), point.weight * point.at.y(), point.weight * point.at.z(), point.weight};
-}
+using Weighted = Eigen::Vector4d;  // ControlPoint::homogeneous()
 
 // A weighted point of a curve with its derivative.
 struct OnCurve {
@@ -137,7 +133,7 @@ PatchCurvature curvatureOf(const WeightedNet& net, NetSize size, int halvings) {
 
 WeightedNet weightedNet(const std::vector<ControlPoint>& points) {
   WeightedNet net;
-  for (const ControlPoint& point : points) net.push_back(weightedOf(point));
+  for (const ControlPoint& point : points) net.push_back(point.homogeneous());
   return net;
 }
 

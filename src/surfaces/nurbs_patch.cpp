@@ -39,10 +39,6 @@ void checkKnots(const std::vector<double>& knots, std::uint32_t order, const std
 // x, y, z and 1, each times the weight.
 using Homogeneous = Eigen::Vector4d;
 
-Homogeneous weighted(const ControlPoint& point) {
-  return {point.weight * point.at.x(), point.weight * point.at.y(), point.weight * point.at.z(), point.weight};
-}
-
 // Bezier pieces of a curve of which each control point is a list of `lanes` points. New control point i of a piece from
 // a to b is the polar form of the curve at b, i times, and a for the rest: by de Boor's algorithm with these arguments.
 class CurveSplitter {
@@ -149,7 +145,7 @@ BezierNet bezierNetOf(const NurbsPatch& patch) {
   const CurveSplitter along_u(patch.order_u, knots_u), along_v(patch.order_v, knots_v);
   const std::size_t columns = pointsAlong(patch.order_u, patch.knots_u), rows = patch.points.size() / columns;
   std::vector<Homogeneous> grid;
-  for (const ControlPoint& point : patch.points) grid.push_back(weighted(point));
+  for (const ControlPoint& point : patch.points) grid.push_back(point.homogeneous());
   grid = turnedGrid(splitRows(grid, columns, along_u), along_u.count());
   grid = turnedGrid(splitRows(grid, rows, along_v), along_v.count());
   net.breaks_u = along_u.breaks();

@@ -14,6 +14,8 @@ namespace hl {
 struct ControlPoint {
   Vec3 at = Vec3::Zero();
   double weight = 1;
+  /// x, y, z and 1, each times the weight.
+  Eigen::Vector4d homogeneous() const { return {weight * at.x(), weight * at.y(), weight * at.z(), weight}; }
   bool operator==(const ControlPoint&) const = default;
 };
 

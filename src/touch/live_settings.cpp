@@ -4,15 +4,9 @@
 
 namespace hl {
 
-namespace {
-
-double smallestReach_D(const DeviceInfo& device) { return (device.workspace_max - device.workspace_min).minCoeff(); }
-
-}  // namespace
-
 LiveSettings::LiveSettings(const TouchSettings& settings, const DeviceInfo& device, const Box& bounds)
     : radius_D_(settings.radius_D),
-      side_D_(std::min(settings.side_D, smallestReach_D(device))),
+      side_D_(std::min(settings.side_D, device.smallestReach_D())),
       stiffness_max_N_m_(device.stiffness_max_N_m),
       world_per_device_(settings.world_per_device),
       faults_(settings.faults),

@@ -50,6 +50,7 @@ TEST(Command, AVolumeWithoutASurfaceSaysWhatItsValuesAre) {
       << other.output;
   EXPECT_EQ(call("info ct:phantom:41 --iso -1000").code, 2) << "nothing is below its least value";
   EXPECT_EQ(call("info ct:phantom:41 --iso -1000 --below").code, 0);
+  EXPECT_EQ(call("info --iso -480,300 ct:phantom:41").code, 0) << "a scene may follow the values";
 }
 
 TEST(Command, AWordThatIsNoneOfAnOptionIsToldWithThoseThatAre) {

@@ -239,6 +239,14 @@ TEST(ReadHeights, EsriGrids) {
   EXPECT_NE(refusalOf(fileWith("f.asc", "ncols 1e9\nnrows 1e9\ncellsize 1\n1 2 3")).find("ends before its last sample"),
             std::string::npos);
   EXPECT_NE(refusalOf(fileWith("e.asc", "ncols 6e9\nnrows 4\ncellsize 1\n1 2 3 4")).find("ncols"), std::string::npos);
+  EXPECT_NE(refusalOf(fileWith("g.asc", "nrows 2\ncellsize 1\n1 2 3 4")).find("its header lacks ncols"),
+            std::string::npos);
+  EXPECT_NE(
+      refusalOf(fileWith("h.asc", "ncols 2\nnrows 2\ncellsize 1\n1 2 9\n3 4 9\n")).find("more samples than the 2 x 2"),
+      std::string::npos)
+      << "its rows would be shifted";
+  EXPECT_EQ(fieldIn(fileWith("i.asc", "\xef\xbb\xbfncols 2\nnrows 2\ncellsize 1\n1 2\n3 4\n\n"))->grid().size().columns,
+            2u);
 }
 
 std::string pngWith(std::uint8_t depth, std::uint32_t columns, std::uint32_t rows) {

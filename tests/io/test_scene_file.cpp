@@ -166,16 +166,16 @@ std::string heightsRefusal(const std::string& heights, const std::string& rest =
 TEST(SceneFile, HeightsThatMakeNoSenseAreRefused) {
   const std::string good = R"("columns": 2, "rows": 2, "values": [0, 1, 2, 3])";
   EXPECT_EQ(heightsRefusal(good), "");
-  EXPECT_EQ(heightsRefusal(good + R"(, "spacing": -1)"), "2: spacing must be from 1e-12 to 1e9");
+  EXPECT_EQ(heightsRefusal(good + R"(, "spacing": -1)"), "2: objects[0].heights: spacing must be from 1e-12 to 1e9");
   EXPECT_EQ(heightsRefusal(R"("columns": 2, "rows": 3, "values": [0, 1, 2, 3])"),
-            "2: it has fewer samples than it says");
+            "2: objects[0].heights: it has fewer samples than it says");
   EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"),
             "2: objects[0].body: only what is made of triangles can be a body");
   EXPECT_NE(heightsRefusal(R"("file": "none.tif")").find("there is no such file"), std::string::npos);
   fileWith("field.asc", "ncols 2\nnrows 2\ncellsize 5\n1 2 3 4");
   EXPECT_EQ(heightsRefusal(R"("file": "field.asc", "spacing": 2, "verticalScale": 3)"), "");
   EXPECT_EQ(heightsRefusal(R"("file": "field.asc", "columns": 2)"),
-            "2: columns, rows, values, samples, kind and missing are those of its file");
+            "2: objects[0].heights: columns, rows, values, samples, kind and missing are those of its file");
 }
 
 TEST(SceneFile, HeightsOfAFileTakeAnotherSpacing) {
@@ -210,7 +210,8 @@ TEST(SceneFile, ACloudThatMakesNoSenseIsRefused) {
     try {
       loadSceneFile(fileWith("scene.hl.json", "{\"objects\":[\n{\"cloud\": {" + cloud + "}}]}"));
     } catch (const Error& error) {
-      return std::string(error.what()).substr(std::string(error.what()).find(": ") + 2);
+      constexpr std::string_view kWhere = "objects[0].cloud: ";
+      return std::string(error.what()).substr(std::string(error.what()).find(kWhere) + kWhere.size());
     }
     return std::string();
   };
@@ -265,12 +266,12 @@ TEST(SceneFile, ImplicitSurfacesThatMakeNoSenseAreRefused) {
   const std::string good = R"("expression": {"sphere": {"radius": 0.1}}, "error": 1e-4)";
   EXPECT_EQ(refusal(good), "");
   EXPECT_EQ(refusal(good + R"(, "bounds": {"min": {"x": -1, "y": -1, "z": 0}, "max": {"x": 1, "y": 1, "z": 1}})"), "");
-  EXPECT_EQ(refusal(""), "2: it needs an expression");
+  EXPECT_EQ(refusal(""), "2: objects[0].implicit: it needs an expression");
   EXPECT_NE(refusal(R"("expression": {})").find("an expression needs a sphere, box"), std::string::npos);
   EXPECT_EQ(refusal(R"("expression": {"union": {"of": [{"sphere": {"radius": 0}}]}})"),
-            "2: union.of.sphere.radius must be from 1e-9 to 1e6");
+            "2: objects[0].implicit: union.of.sphere.radius must be from 1e-9 to 1e6");
   EXPECT_EQ(refusal(R"("expression": {"halfSpace": {"normal": {"y": 1}}})"),
-            "2: it has no end, as a half-space or a gyroid has none: give bounds");
+            "2: objects[0].implicit: it has no end, as a half-space or a gyroid has none: give bounds");
   EXPECT_NE(refusal(R"("expression": {"ball": {}})").find("ball"), std::string::npos);
   EXPECT_EQ(refusal(good, R"(, "body": {})"), "2: objects[0].body: only what is made of triangles can be a body");
 }
@@ -357,26 +358,32 @@ TEST(SceneFile, VolumesThatMakeNoSenseAreRefused) {
   smallNifti("small.nii");
   fileWith("field.asc", "ncols 2\nnrows 2\ncellsize 5\n1 2 3 4");
   EXPECT_EQ(refusal(good), "");
-  EXPECT_EQ(refusal(good + R"(, "iso": 2)"), "2: there is no surface at iso 2: its values are from 0 to 1");
+  EXPECT_EQ(refusal(good + R"(, "iso": 2)"),
+            "2: objects[0].volume: there is no surface at iso 2: its values are from 0 to 1");
   EXPECT_EQ(refusal(good + R"(, "iso": 0)"),
-            "2: there is no surface at iso 0: its values are from 0 to 1, and no two neighbours have it between them");
+            "2: objects[0].volume: there is no surface at iso 0: its values are from 0 to 1, and no two neighbours "
+            "have it between them");
   EXPECT_EQ(refusal(good + R"(, "iso": 0, "below": true)"), "");
   EXPECT_EQ(refusal(R"("size": [2, 2, 2], "values": [1, 1, 1, 1, 1, 1, 1, 1])"), "") << "it comes with a warning";
   EXPECT_EQ(refusal(R"("size": [2, 2, 2], "values": [7, 7, 7, 7, 7, 7, 7, 7], "missing": 7)"),
-            "2: no voxel of it has a finite value but 7, which stands for a missing one");
+            "2: objects[0].volume: no voxel of it has a finite value but 7, which stands for a missing one");
   EXPECT_EQ(refusal(good + R"(, "scale": 1e300)"),
-            "2: its scale (the slope of a NIfTI file) of 1e+300 and offset of 0 take values beyond 3.4e38");
-  EXPECT_EQ(refusal(R"("size": [2, 2, 3], "values": [0, 1])"), "2: it has fewer samples than it says");
+            "2: objects[0].volume: its scale (the slope of a NIfTI file) of 1e+300 and offset of 0 take values beyond "
+            "3.4e38");
+  EXPECT_EQ(refusal(R"("size": [2, 2, 3], "values": [0, 1])"),
+            "2: objects[0].volume: it has fewer samples than it says");
   EXPECT_EQ(refusal(good, R"(, "body": {})"), "2: objects[0].body: only what is made of triangles can be a body");
   EXPECT_NE(refusal(R"("file": "none.nii")").find("there is no such file"), std::string::npos);
-  EXPECT_EQ(refusal(R"("file": "field.asc")"), "2: field.asc: is no volume");
-  EXPECT_EQ(refusal(R"("file": "small.nii", "builtin": "ct:phantom")"), "2: it has a file or a builtin, not both");
-  EXPECT_EQ(refusal(R"("builtin": "teapot")"), "2: teapot: is no volume");
+  EXPECT_EQ(refusal(R"("file": "field.asc")"), "2: objects[0].volume: field.asc: is no volume");
+  EXPECT_EQ(refusal(R"("file": "small.nii", "builtin": "ct:phantom")"),
+            "2: objects[0].volume: it has a file or a builtin, not both");
+  EXPECT_EQ(refusal(R"("builtin": "teapot")"), "2: objects[0].volume: teapot: is no volume");
   EXPECT_EQ(refusal(good + R"(, "matter": [{"value": 1}, {"value": 1}])"),
-            "2: matter: the values of its rows must rise from row to row");
-  EXPECT_EQ(refusal(good + R"(, "matter": [{"value": 1, "dragNsM": -1}])"), "2: matter: drag must be from 0 to 1e9");
+            "2: objects[0].volume: matter: the values of its rows must rise from row to row");
+  EXPECT_EQ(refusal(good + R"(, "matter": [{"value": 1, "dragNsM": -1}])"),
+            "2: objects[0].volume: matter: drag must be from 0 to 1e9");
   EXPECT_EQ(refusal(R"("file": "small.nii", "size": [3, 2, 2])"),
-            "2: size, values, samples, kind, missing, scale and offset are those of its file");
+            "2: objects[0].volume: size, values, samples, kind, missing, scale and offset are those of its file");
 }
 
 TEST(SceneFile, TheExampleOfPartsLoads) {
@@ -470,6 +477,9 @@ TEST(SceneFile, BodiesThatCannotBeAreRefusedByLine) {
   expect(R"("staticFriction": 0.1, "dynamicFriction": 0.2)", "", "staticFriction must not be less");
   expect("", R"({"bodyA": "c"})", "there is no body 'c'");
   expect("", R"({"bodyA": "a", "bodyB": "a"})", "joins a body to itself");
+  std::string twice = twoBodies("", R"({"bodyA": "a"})");
+  twice.replace(twice.find("\"name\": \"b\""), 11, "\"name\": \"a\"");
+  EXPECT_NE(refusalOf(twice).find("there are several bodies 'a'"), std::string::npos);
   expect("", R"({"bodyA": "a", "kind": "HINGE"})", "needs an axis");
   expect("", R"({"bodyA": "a", "low": 2, "high": 1})", "low must not be above high");
   expect(R"("fixed": true, "velocityMS": {"x": 1})", "", "a fixed body has no velocityMS");
@@ -719,6 +729,7 @@ TEST(SceneFile, AValueOfAnotherKindIsToldWithWhatToWrite) {
   const std::string at = ":1: objects[0].";
   EXPECT_EQ(told(R"("material": {"shade": "smooth"})"), at + "material.shade: \"smooth\" is none of SMOOTH, FLAT");
   EXPECT_EQ(told(R"("material": {"shade": ["FLAT"]})"), at + "material.shade: it must not be a list");
+  EXPECT_EQ(told(R"("material": {"stiffness": {}})"), at + "material: one of its values must not be an object");
   EXPECT_EQ(told(R"("material": {"stiffness": "high"})"), at + "material.stiffness: \"high\" is not a number");
   EXPECT_EQ(told(R"("primitives": {})"),
             ":1: objects[0]: of the values that exclude each other there is another one already");
