@@ -225,7 +225,7 @@ class DepthBench {
     }
     return true;
   }
-  // Behind the picture that is shown. The way of one tick tells nothing: around an edge its ends lie on both sides of a
+  // Behind the picture that is shown. The way of one tick shows nothing: around an edge its ends lie on both sides of a
   // corner that the proxy has gone around.
   bool isBehind() const { return shown_->siteOf(states_[0].position) == Site::kMatter; }
 

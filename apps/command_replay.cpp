@@ -89,7 +89,7 @@ void print(const std::string& file, const ReplayReport& report) {
   }
 }
 
-void tell(const std::string& file, const ReplayReport& report) {
+void printAndFlush(const std::string& file, const ReplayReport& report) {
   print(file, report);
   std::fflush(stdout);
 }
@@ -103,7 +103,7 @@ void demandSame(std::span<const ReplayReport> reports) {
 // Of several devices, whose hands may be at the same bodies.
 void runTogether(const std::vector<std::string>& files) {
   const std::vector<ReplayReport> reports = replayTogether(files);
-  for (std::size_t i = 0; i < files.size(); ++i) tell(files[i], reports[i]);
+  for (std::size_t i = 0; i < files.size(); ++i) printAndFlush(files[i], reports[i]);
   demandSame(reports);
 }
 
@@ -115,7 +115,7 @@ void run(const std::string& file, const std::string& csv_path) {
     if (csv) csv->add(time_s, step);
   });
   if (csv) csv->close();
-  tell(file, report);
+  printAndFlush(file, report);
   demandSame({&report, 1});
 }
 

@@ -35,7 +35,7 @@ struct SweepCall {
   bool dry_run = false, status = false, finish = false, slurm = false;
   std::optional<SweepPart> part;
   std::string slurm_options;
-  std::size_t parts = 100;  // below the 1001 that Slurm allows in an array unless it is told otherwise
+  std::size_t parts = 100;  // below the 1001 that Slurm allows in an array unless it is set otherwise
 };
 
 // A sweep that has been read, with its places; the current folder is that of its file.
@@ -93,13 +93,13 @@ std::string traceLine(const SweepRun& run, const FleetTask& task) {
 }
 
 void printFailures(const SweepRun& run, const FleetProgress& progress) {
-  constexpr std::size_t kMaxTold = 10;
-  for (std::size_t i = 0; i < std::min(kMaxTold, progress.failures.size()); ++i) {
+  constexpr std::size_t kMaxListed = 10;
+  for (std::size_t i = 0; i < std::min(kMaxListed, progress.failures.size()); ++i) {
     const auto& [task, why] = progress.failures[i];
     fmt::print(stderr, "failed: {}: {}\n", traceLine(run, run.plan.tasks[task]), why);
   }
-  if (progress.failed > kMaxTold)
-    fmt::print(stderr, "and {} more: the column failure of the table has all\n", progress.failed - kMaxTold);
+  if (progress.failed > kMaxListed)
+    fmt::print(stderr, "and {} more: the column failure of the table has all\n", progress.failed - kMaxListed);
 }
 
 void listTasks(const SweepRun& run) {
@@ -110,7 +110,7 @@ void listTasks(const SweepRun& run) {
   fmt::print("{} tasks; sweep {}\n", run.tasks.size(), run.plan.name);
 }
 
-void tellStatus(const SweepRun& run) {
+void printStatus(const SweepRun& run) {
   const FleetProgress progress = progressOf(run.plan, run.store());
   fmt::print("{} tasks: {} done, {} failed, {} left\n", run.plan.tasks.size(), progress.done, progress.failed,
              progress.left);
@@ -161,7 +161,7 @@ void runTasks(const SweepRun& run) {
     if (!failure.empty()) store.keepFailure(task_of(i).name, failure);
     progress.taskDone();
   };
-  callbacks.wait = [&] { progress.tell(); };
+  callbacks.wait = [&] { progress.report(); };
   const std::string self = fs::read_symlink("/proc/self/exe").string();
   if (!todo.empty())
     runWorkers({self, {"hl", kSweepWorker, run.folder + "/results"}}, jobsOf(run.call), todo.size(), callbacks);
@@ -197,7 +197,7 @@ void run(const SweepCall& call) {
   const SweepRun sweep = planned(call);
   if (call.slurm) return submit(sweep);
   if (call.dry_run) return listTasks(sweep);
-  if (call.status) return tellStatus(sweep);
+  if (call.status) return printStatus(sweep);
   if (!call.finish) runTasks(sweep);
   if (!call.part) finish(sweep);
 }

@@ -110,12 +110,12 @@ void printTotals(TouchSession& session) {
 bool applyToSession(TouchOptions& options) {
   options.settings.hand_firm = options.hand == "firm";
   // A scene file says how its surfaces feel; a bare model feels as smooth as it looks.
-  const bool shade_untold = !options.settings.surfaces.smooth;
-  if (!isSceneFile(options.scene.scene) && shade_untold) options.settings.surfaces.smooth = true;
+  const bool shade_unset = !options.settings.surfaces.smooth;
+  if (!isSceneFile(options.scene.scene) && shade_unset) options.settings.surfaces.smooth = true;
   options.settings.explore = options.explore == "on";
   if (options.scale > 0) options.settings.world_per_device = options.scale;
   if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
-  return shade_untold;
+  return shade_unset;
 }
 
 TouchServerSettings serverSettings(const TouchOptions& options, std::vector<NamedDevice> devices,
@@ -125,7 +125,7 @@ TouchServerSettings serverSettings(const TouchOptions& options, std::vector<Name
   RecorderSettings recorder = options.recorder;
   recorder.version = HL_VERSION;
   recorder.several = settings.devices.size() > 1;
-  recorder.tell = [](const std::string& device, const std::string& line) {
+  recorder.report = [](const std::string& device, const std::string& line) {
     fmt::print(stderr, "{}{}\n", headOf(device), line);
   };
   settings.touch.sink = recorderWith(recorder);
@@ -139,7 +139,7 @@ void runTouch(TouchOptions options) {
   requireRecordable(options, devices);
   options.scene.opens_files = options.upload == "on";
   const auto snapshot = loadSnapshot(options.scene);
-  const bool shade_untold = applyToSession(options);
+  const bool shade_unset = applyToSession(options);
   // hl record has all of the session in its file.
   if (options.recorder.file.empty()) options.recorder.pages = std::make_shared<PageRecordings>();
   giveFreedMemoryBack();
@@ -152,7 +152,7 @@ void runTouch(TouchOptions options) {
   TouchSession& session = touch.device();
   if (options.settings.script && !hasAnyHand(touch))
     throw Error("--hand-path moves a simulated hand, and a person holds this device");
-  FileOpener opener(touch, hierarchyOf(options.scene), options.scene.cad, shade_untold);
+  FileOpener opener(touch, hierarchyOf(options.scene), options.scene.cad, shade_unset);
   if (options.upload == "on") {
     http.upload.limit_bytes = kUpload_bytes;
     http.upload.open = [&](int descriptor, const std::string& name) { return opener.open(descriptor, name); };

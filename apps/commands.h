@@ -97,7 +97,7 @@ CLI::Validator oneOf(const std::map<std::string, Value>& values) {
           ""};
 }
 /// What CLI11 says of a wrong option, in words that say what to do.
-std::string told(const CLI::ParseError& error);
+std::string errorText(const CLI::ParseError& error);
 
 // What numbers on the command line may be, so that no product of them, lengths and speeds leaves the range of doubles.
 inline constexpr double kMinNumber = 1e-9, kMaxNumber = 1e9, kMinRadius_m = 1e-12;

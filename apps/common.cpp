@@ -162,11 +162,11 @@ std::uint64_t trianglesOf(const Shape& shape) {
 }
 
 void requireNoReading(const SceneOptions& options) {
-  const SceneOptions untold;
+  const SceneOptions defaults;
   const std::pair<bool, const char*> said[] = {
       {!options.grid.empty(), "--grid"},      {!options.iso.empty(), "--iso"},
       {options.below.has_value(), "--below"}, {options.vertical_scale > 0, "--vertical-scale"},
-      {options.surfels, "--surfels"},         {!(options.cad == untold.cad), "--deflection"}};
+      {options.surfels, "--surfels"},         {!(options.cad == defaults.cad), "--deflection"}};
   for (const auto& [is_said, name] : said) {
     if (is_said) throw Error(std::string(name) + " says how a scene is read, and there is none: say it with --scene");
   }
@@ -240,7 +240,7 @@ CLI::Validator passing(std::function<void(const std::string& text)> check) {
 
 CLI::Validator plainFile() { return passing(checkPlainFile); }
 
-std::string told(const CLI::ParseError& error) {
+std::string errorText(const CLI::ParseError& error) {
   constexpr std::string_view kTwice = ": At Most 1 required but received ", kNone = ": 1 required ",
                              kExtra = " not expected: ", kNoNumber = "Could not convert: ", kIs = " = ";
   const std::string text = error.what();

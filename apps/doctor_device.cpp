@@ -27,7 +27,7 @@ void print(const Finding& finding) {
   if (!finding.advice.empty()) fmt::print("{}\n", indented(finding.advice));
 }
 
-void tell(SelfTestPart part, bool simulated) {
+void printInstruction(SelfTestPart part, bool simulated) {
   const char* what = nullptr;
   if (part == SelfTestPart::kMove) what = "move the tip to all sides: left, right, up, down, to you, away (7 s)";
   if (part == SelfTestPart::kStill) what = "hold it still (3 s)";
@@ -76,7 +76,7 @@ DeviceExamination examineDevice(const std::string& spec, bool self_test) {
   seen.name = device->info().name;
   if (self_test && allGood(opening)) {
     const bool simulated = device->hand() != nullptr;
-    seen.test = runSelfTest(*device, [&](SelfTestPart part) { tell(part, simulated); });
+    seen.test = runSelfTest(*device, [&](SelfTestPart part) { printInstruction(part, simulated); });
     print(*seen.test);
   }
   device->close();

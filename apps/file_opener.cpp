@@ -17,14 +17,14 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMaxWarnings = 5;  // that a page is told
+constexpr std::size_t kMaxWarnings = 5;  // that a page is sent
 
-std::string answerOf(const Snapshot& scene, std::span<const std::string> told, double world_per_device) {
+std::string answerOf(const Snapshot& scene, std::span<const std::string> given, double world_per_device) {
   std::uint64_t triangles = 0;
   for (const Instance& instance : scene.instances) triangles += trianglesOf(*instance.shape);
   std::string warnings;
-  for (std::size_t i = 0; i < std::min(told.size(), kMaxWarnings); ++i)
-    warnings += (i > 0 ? "," : "") + jsonString(told[i]);
+  for (std::size_t i = 0; i < std::min(given.size(), kMaxWarnings); ++i)
+    warnings += (i > 0 ? "," : "") + jsonString(given[i]);
   return fmt::format(R"({{"name":{},"triangles":{},"primitives":{},"world_per_device":{:.6g},"warnings":[{}]}})",
                      jsonString(scene.name), triangles, scene.primitives, world_per_device, warnings);
 }

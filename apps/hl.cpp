@@ -45,12 +45,12 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
-  } catch (const CLI::RuntimeError& failed) {  // told already
+  } catch (const CLI::RuntimeError& failed) {  // reported already
     return failed.get_exit_code();
   } catch (const CLI::ParseError& error) {
     const bool unknown = argc > 1 && app.get_subcommands().empty();
     fmt::print(stderr, "hl: {} (try --help)\n",
-               hl::printable(unknown ? unknownCommand(app, argv[1]) : hl::told(error)));
+               hl::printable(unknown ? unknownCommand(app, argv[1]) : hl::errorText(error)));
     return 2;
   } catch (const hl::Error& error) {
     fmt::print(stderr, "hl: {}\n", hl::printable(error.what()));

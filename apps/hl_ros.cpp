@@ -17,15 +17,15 @@ namespace {
 
 // A server that is held up finds the newest commands gone: those that wait are older than they may be anyway.
 template <typename Packet>
-void tellServer(const Packet& packet) {
+void sendToServer(const Packet& packet) {
   const auto bytes = hl::bytesOf(packet);
   send(STDIN_FILENO, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
 void serve(const hl::RosTask& task) {
   hl::beginServing(HL_VERSION, task.version);
-  hl::RosParticipant participant(task, [](const hl::HandCommand& command) { tellServer(command); });
-  tellServer(hl::DdsReady{});
+  hl::RosParticipant participant(task, [](const hl::HandCommand& command) { sendToServer(command); });
+  sendToServer(hl::DdsReady{});
   std::array<char, sizeof(hl::RosHandState)> buffer;
   for (;;) {
     const auto size = recv(STDIN_FILENO, buffer.data(), buffer.size(), 0);

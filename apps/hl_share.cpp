@@ -18,7 +18,7 @@
 namespace {
 
 // Waits while the server is behind. It ends the process when the server has ended, through the main thread.
-void tellServer(const hl::SharePacket& packet) {
+void sendToServer(const hl::SharePacket& packet) {
   const std::string bytes = hl::bytesOf(packet);
   while (send(STDIN_FILENO, bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0 && errno == EINTR) {
   }
@@ -43,7 +43,7 @@ class Sending {
     out_.send(std::move(*packet), hl::monotonicNow_ns());
     return true;
   }
-  // Tries again what waits, and tells the server of what does so no more: now, or when it reads.
+  // Tries again what waits, and reports to the server what does so no more: now, or when it reads.
   void flush() {
     out_.flush(hl::monotonicNow_ns());
     const hl::ShareTaken taken{known_bytes_ - out_.waiting_bytes()};
@@ -60,7 +60,7 @@ class Sending {
 
 void serve(const hl::ShareTask& task) {
   hl::beginServing(HL_VERSION, task.version);
-  hl::ShareParticipant participant(task, tellServer);
+  hl::ShareParticipant participant(task, sendToServer);
   const hl::DdsReady ready;
   send(STDIN_FILENO, &ready, sizeof ready, MSG_NOSIGNAL);
   participant.start();

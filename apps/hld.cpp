@@ -105,7 +105,7 @@ void serve(HldOptions& options) {
   options.touch.explore = options.explore == "on";
   options.recorder.version = HL_VERSION;
   const std::vector<NamedDevice> devices = devicesOf(options.devices);
-  options.recorder.tell = logFault;
+  options.recorder.report = logFault;
   options.touch.sink = recorderWith(options.recorder);
   const HttpServerSettings http = serverSettings(options);
   TouchServer touch(sceneOf(options),
@@ -144,9 +144,9 @@ void serve(HldOptions& options) {
 namespace {
 
 // With the file that options are read from, where there is one.
-std::string told(const CLI::App& app, const CLI::ParseError& error) {
+std::string errorText(const CLI::App& app, const CLI::ParseError& error) {
   constexpr std::string_view kUnknown = "INI was not able to parse ";
-  std::string text = hl::told(error);
+  std::string text = hl::errorText(error);
   if (text.starts_with(kUnknown)) text = "there is no option '" + text.substr(kUnknown.size()) + "'";
   text = hl::validUtf8(text);
   std::replace_if(
@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "hld: {} (try --help)\n", hl::printable(told(app, error)));
+    fmt::print(stderr, "hld: {} (try --help)\n", hl::printable(errorText(app, error)));
     return 2;
   } catch (const hl::Error& error) {
     fmt::print(stderr, "hld: {}\n", hl::printable(error.what()));

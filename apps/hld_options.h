@@ -1,4 +1,4 @@
-// What hld can be told, on its command line or in its configuration file: the same names in both.
+// What hld can be set to do, on its command line or in its configuration file: the same names in both.
 #pragma once
 
 #include <CLI/CLI.hpp>

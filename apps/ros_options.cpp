@@ -84,7 +84,7 @@ void addRosOptions(CLI::App& app, RosOptions& options) {
   addTeleopOptions(app, options);
 }
 
-std::unique_ptr<RosBridge> makeRosBridge(const RosOptions& options, TouchServer& server, RosBridge::TellPerson tell) {
+std::unique_ptr<RosBridge> makeRosBridge(const RosOptions& options, TouchServer& server, RosBridge::ReportLine report) {
   if (options.name_space.empty()) return nullptr;
   checkReach(options.reach, kRosUse);
   std::vector<TouchSession*> hands;
@@ -95,7 +95,7 @@ std::unique_ptr<RosBridge> makeRosBridge(const RosOptions& options, TouchServer&
   }
   const RosTask task{HL_VERSION, ddsDomain(), rosHands(options.name_space, names), options.reach};
   const std::optional<TeleopOfHand> teleop = teleopOf(options, task.hands);
-  return std::make_unique<RosBridge>(std::make_unique<RosProcess>(task), hands, options.rate_Hz, std::move(tell),
+  return std::make_unique<RosBridge>(std::make_unique<RosProcess>(task), hands, options.rate_Hz, std::move(report),
                                      teleop);
 }
 

@@ -24,7 +24,7 @@ void addRosOptions(CLI::App& app, RosOptions& options);
 
 /// With hl-ros started, for the devices of `server`, which must outlive it; null when nobody asks for topics. Throws
 /// hl::Error when hl-ros cannot be had. Before other threads are started.
-std::unique_ptr<RosBridge> makeRosBridge(const RosOptions& options, TouchServer& server, RosBridge::TellPerson tell);
+std::unique_ptr<RosBridge> makeRosBridge(const RosOptions& options, TouchServer& server, RosBridge::ReportLine report);
 
 /// Of what a person may expect of --ros here, in one line: for hl doctor.
 std::string rosPresence();

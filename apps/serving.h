@@ -1,4 +1,4 @@
-// What the programs that serve have in common: where the page is, and the signals that end or tell them something.
+// What the programs that serve have in common: where the page is, and the signals that end or command them.
 #pragma once
 
 #include <signal.h>
@@ -26,7 +26,7 @@ int waitForSignal(const sigset_t& signals, double longest_s = 0);
 /// The built page: viewer/dist (as built) or share/hl/viewer (as installed) in a folder above the program.
 std::string defaultPageFolder();
 
-/// Where black boxes are kept unless told otherwise; empty where there is no place for them.
+/// Where black boxes are kept unless set otherwise; empty where there is no place for them.
 std::string defaultBlackBoxFolder();
 /// What pages see of `server` and may do to it, but for recordings and files; it must outlive them.
 ViewerFeedSettings pageOf(TouchServer& server, ReadShare share);

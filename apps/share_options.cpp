@@ -55,14 +55,14 @@ void addShareOptions(CLI::App& app, ShareOptions& options) {
 }
 
 std::unique_ptr<ShareBridge> makeShareBridge(const ShareOptions& options, TouchServer& server,
-                                             ShareBridge::TellPerson tell) {
+                                             ShareBridge::ReportLine report) {
   if (options.world.empty()) return nullptr;
   checkReach(options.reach, kShareUse);
   const std::string name = options.name.empty() ? shareNameLike(machineName()) : options.name;
   const ShareSelf self{randomId(), name, options.adopt == "on", HL_VERSION};
   const ShareTask task{HL_VERSION, ddsDomain(), options.world, self.id, options.reach};
   return std::make_unique<ShareBridge>(std::make_unique<ShareProcess>(task), options.world, self, server,
-                                       std::move(tell));
+                                       std::move(report));
 }
 
 ReadShare readerOf(const ShareBridge* bridge) {

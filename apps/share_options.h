@@ -24,9 +24,9 @@ void addShareOptions(CLI::App& app, ShareOptions& options);
 /// With hl-share started, for the scene and devices of `server`, which must outlive it; null when nobody asks for a
 /// shared world. Throws hl::Error when hl-share cannot be had. Before other threads are started.
 std::unique_ptr<ShareBridge> makeShareBridge(const ShareOptions& options, TouchServer& server,
-                                             ShareBridge::TellPerson tell);
+                                             ShareBridge::ReportLine report);
 
-/// What a bridge tells; empty where there is none. It must outlive what reads it.
+/// What a bridge reports; empty where there is none. It must outlive what reads it.
 ReadShare readerOf(const ShareBridge* bridge);
 
 /// Of what a person may expect of --share here, in one line: for hl doctor.

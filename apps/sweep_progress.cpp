@@ -15,11 +15,11 @@ SweepProgress::SweepProgress(std::size_t tasks)
 
 double SweepProgress::seconds() const { return 1e-9 * static_cast<double>(monotonicNow_ns() - begin_ns_); }
 
-void SweepProgress::tell() {
+void SweepProgress::report() {
   constexpr double kOnTerminal_s = 0.2, kElsewhere_s = 10;
   const double now_s = seconds();
-  if (now_s - told_s_ < (terminal_ ? kOnTerminal_s : kElsewhere_s)) return;
-  told_s_ = now_s;
+  if (now_s - reported_s_ < (terminal_ ? kOnTerminal_s : kElsewhere_s)) return;
+  reported_s_ = now_s;
   const std::string line = fleetProgressText(done_, tasks_, now_s);
   terminal_ ? fmt::print(stderr, "\r{}\x1b[K", line) : fmt::print(stderr, "{}\n", line);
   std::fflush(stderr);

@@ -10,7 +10,7 @@ class SweepProgress {
  public:
   explicit SweepProgress(std::size_t tasks);
   void taskDone() { ++done_; }
-  void tell();  ///< if it is time to
+  void report();  ///< if it is time to
   /// For good: the line goes. Seconds since the beginning.
   double end();
 
@@ -21,7 +21,7 @@ class SweepProgress {
   const std::int64_t begin_ns_;
   const bool terminal_;
   std::size_t done_ = 0;
-  double told_s_ = 0;
+  double reported_s_ = 0;
 };
 
 }  // namespace hl

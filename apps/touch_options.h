@@ -1,4 +1,4 @@
-// What hl touch can be told, and hl record too.
+// The options of hl touch, and hl record too.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // Steps of bodies: stacks that stand, a pile that falls into a box, and many bodies of which few are awake. Each step
-// is timed, and the percentiles are told beside the mean.
+// is timed, and the percentiles are reported beside the mean.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

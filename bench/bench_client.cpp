@@ -170,7 +170,7 @@ void measureFrames(int objects, double seconds) {
       objects, frames / seconds, (shown - first) / secondsSince(start), 1e3 * worst_s);
 }
 
-// The clocks of two hosts differ by an unknown time: what is told is how much later than the freshest state each came.
+// The clocks of two hosts differ by an unknown time: reported is how much later than the freshest state each came.
 void measureStates(double seconds) {
   hlStateRate(1000);
   std::vector<double> late;

@@ -1,5 +1,5 @@
 // Ten blocks on a floor, in two towers, which the finger can push over: bodies move by themselves, and the program is
-// told where they are.
+// sent where they are.
 //
 //   15_blocks [URL [SECONDS]]
 #include <array>

@@ -3,7 +3,7 @@
  *     hld --ros lab                 serves the hand
  *     19_ros_circle lab/hand 30     leads it, for 30 s; of the same machine
  *
- * Cyclone DDS is told where to look as ROS 2 does with ROS_LOCALHOST_ONLY=1. */
+ * Cyclone DDS is set to look as ROS 2 does with ROS_LOCALHOST_ONLY=1. */
 #include <dds/dds.h>
 #include <math.h>
 #include <ros2.h>

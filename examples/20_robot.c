@@ -82,7 +82,7 @@ static void hear(Topics* topics, HLteleopRobot* side) {
   }
 }
 
-static void tell(const Topics* topics, const Robot* robot) {
+static void publish(const Topics* topics, const Robot* robot) {
   geometry_msgs_msg_dds__WrenchStamped_ wrench = {0};
   const std_msgs_msg_dds__Float64_ energy = {robot->side.port.sent_J};
   wrench.header.frame_id = ""; /* the hand's own */
@@ -143,7 +143,7 @@ int main(int argc, char** argv) {
   for (step = 0; step * kPeriod_s < seconds; ++step) {
     hear(&topics, &robot.side);
     hlTeleopStep(&robot.side, robot.force_N, kPeriod_s);
-    if (step % kSendSteps == 0) tell(&topics, &robot);
+    if (step % kSendSteps == 0) publish(&topics, &robot);
     move(&robot);
     least_tank_J = fmin(least_tank_J, robot.side.port.tank_J);
     most_N = fmax(most_N, robot.force_N[1]);

@@ -40,7 +40,7 @@ bool parsed(const std::uint8_t* data, std::size_t size, HttpRequest& request) {
   return true;
 }
 
-// What is told to whom. Nobody gets a file from outside of the page's folder, and without the token nobody gets any.
+// Who gets what. Nobody gets a file from outside of the page's folder, and without the token nobody gets any.
 void answer(const HttpAnswers& answers, const HttpRequest& request) {
   const HttpResponse response = answers.answer(request, ServerCounts{Traffic{}, 0, 0, 0});
   fuzz::require(response.count(http::field::set_cookie) <= 1);

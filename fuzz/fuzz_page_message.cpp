@@ -1,4 +1,4 @@
-// Messages of pages: what the settings then are, and what every page is told of it.
+// Messages of pages: what the settings then are, and what every page is sent of it.
 #include "page/viewer_feed.h"
 #include "refusal.h"
 

@@ -1,5 +1,5 @@
 // Packets of a shared world, from servers that may send anything: what the world then has, what it sends, and what is
-// made of an object that they tell of. Of each packet three bytes come first: milliseconds, and its length.
+// made of an object that they publish. Of each packet three bytes come first: milliseconds, and its length.
 #include <vector>
 
 #include "base/error.h"
@@ -61,7 +61,7 @@ void hearAll(const std::vector<Heard>& packets) {
   for (const Heard& packet : packets) {
     now_ns += packet.after_ns;
     world.hear({Lane::kStream, 0, packet.bytes}, now_ns);
-    world.tell(ownItems(world.contents()), true, now_ns);
+    world.publish(ownItems(world.contents()), true, now_ns);
     world.press({2, Vec3::UnitX(), Vec3::Zero(), 0.01});
     world.step(now_ns);
     for (const ItemPush& push : world.takePushes()) fuzz::require(push.impulse_N_s.allFinite());
@@ -70,7 +70,7 @@ void hearAll(const std::vector<Heard>& packets) {
   requireSound(world, now_ns);
 }
 
-// The first one tells of an object, the others are its contents.
+// The first one publishes an object, the others are its contents.
 void readItem(const std::vector<Heard>& packets) {
   if (packets.size() < 3) return;
   const proto::ShareMessage message = messageOf(packets[0].bytes);

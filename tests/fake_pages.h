@@ -1,4 +1,4 @@
-// What the pages of a test's server are told.
+// What the pages of a test's server are sent.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// A client of /hl made of Boost.Beast alone, which does as it is told, right or wrong.
+// A client of /hl made of Boost.Beast alone, which sends what a test gives it, right or wrong.
 #pragma once
 
 #include <google/protobuf/util/json_util.h>

@@ -13,7 +13,7 @@ double halfAlong(const CubeState& cube, const Vec3& direction) {
   return kCubeHalf_m * (cube.turned.transpose() * direction).cwiseAbs().sum();
 }
 
-// By the separating axes: of two boxes one of fifteen tells how far they are apart.
+// By the separating axes: of two boxes one of fifteen gives how far they are apart.
 double overlapOf(const CubeState& a, const CubeState& b) {
   const Vec3 between = b.centre - a.centre;
   if (between.norm() > 2 * std::sqrt(3.0) * kCubeHalf_m) return 0;

@@ -341,8 +341,8 @@ HL_API void hlBodyVelocityd(HLuint object, HLdouble vx, HLdouble vy, HLdouble vz
 HL_API void hlBodyPlaced(HLuint object, HLdouble x, HLdouble y, HLdouble z, HLdouble qx, HLdouble qy, HLdouble qz,
                          HLdouble qw);
 
-/** Writes up to `most` bodies of this context as the last state tells them, sorted by object and name, and returns how
- * many it wrote; HL_BODY_COUNT says how many there are. States tell them once a frame with a body has been flushed.
+/** Writes up to `most` bodies of this context as the last state gives them, sorted by object and name, and returns how
+ * many it wrote; HL_BODY_COUNT says how many there are. States hold them once a frame with a body has been flushed.
  * HL_INVALID_VALUE: most < 0. */
 HL_API HLsizei hlGetBodies(HLsizei most, HLbody* bodies);
 /** Writes what `name` says (HL_BODY_POSITION .. HL_BODY_MATRIX, HL_BODY_VELOCITY, HL_BODY_SPIN) of the first body of
@@ -419,7 +419,7 @@ HL_API void hlJointTable(HLsizei rows, const HLdouble* positions, const HLdouble
  * numbers along a coordinate; a distance with HL_JOINT_HIGH of 0 or below. */
 HL_API void hlJoin(HLuint joint, HLuint object_a, HLuint name_a, HLuint object_b, HLuint name_b);
 
-/** Writes up to `most` joints of this context as the last state tells them, sorted by number, and returns how many it
+/** Writes up to `most` joints of this context as the last state gives them, sorted by number, and returns how many it
  * wrote; HL_JOINT_COUNT says how many there are. HL_INVALID_VALUE: most < 0. */
 HL_API HLsizei hlGetJoints(HLsizei most, HLjoint* joints);
 /** Writes what `name` says (HL_JOINT_COORDINATE .. HL_JOINT_FORCE, HL_JOINT_HOLD) of a joint: a door's angle, how far a
@@ -561,7 +561,7 @@ HL_API void hlGetDoublev(HLenum name, HLdouble* values); /**< see hlGetBooleanv 
 /** Writes up to `most` contacts of the last state, the one with the largest share first, and returns how many it wrote.
  * HL_INVALID_VALUE: most < 0. */
 HL_API HLsizei hlGetContacts(HLsizei most, HLcontact* contacts);
-/** Writes up to `most` hands of other servers of a shared world as the last state tells them, sorted by server, and
+/** Writes up to `most` hands of other servers of a shared world as the last state gives them, sorted by server, and
  * returns how many it wrote; HL_REMOTE_HAND_COUNT says how many there are. HL_INVALID_VALUE: most < 0. */
 HL_API HLsizei hlGetRemoteHands(HLsizei most, HLremotehand* hands);
 /** How often the state comes from now on, Hz, 0 .. HL_MAX_STATE_RATE; 0: never. Not only for the master. */
@@ -575,7 +575,7 @@ HL_API void hlKeepSamples(HLsizei most);
  * HL_INVALID_VALUE: most < 0. */
 HL_API HLsizei hlTakeSamples(HLsizei most, HLsample* samples);
 
-/** HL_TRUE: from now on the server tells with each state where and how strongly the hand has pressed since the state
+/** HL_TRUE: from now on the server reports with each state where and how strongly the hand has pressed since the state
  * before; HL_FALSE: no more, as at first. Where states come seldom, some is left out: the server has the last 1024
  * steps of the servo. Not only for the master. */
 HL_API void hlKeepContactReport(HLboolean wanted);

@@ -168,7 +168,7 @@ enum {
   HL_EVENT_MOTION = 0x48053,  /**< in a state the finger has moved on, by 1 mm at the hand */
   HL_EVENT_SLEEP = 0x48054,   /**< a body of this context has come to rest, and is not stepped any more */
   HL_EVENT_WAKE = 0x48055,    /**< something moves it again */
-  HL_EVENT_IMPACT = 0x48056   /**< something hit it: 0.05 m/s or more in a step; of a body one in 20 ms is told */
+  HL_EVENT_IMPACT = 0x48056   /**< something hit it: 0.05 m/s or more in a step; of a body one in 20 ms is sent */
 };
 
 /** hlGetString; HL_DEVICE_NAME and HL_DEVICE_LABEL of any device: hlGetStringi. */
@@ -209,7 +209,7 @@ enum {
    */
 };
 
-/** hlGet*v: the conversation and what the server told when it began. */
+/** hlGet*v: the conversation and what the server sent when it began. */
 enum {
   HL_SESSION = 0x48080,              /**< 1; number of this session at the server */
   HL_MASTER = 0x48081,               /**< 1; HL_TRUE: this context may set the device's proxy, workspace and spring */
@@ -231,10 +231,10 @@ enum {
   HL_MAX_BODIES = 0x4810D,           /**< 1; that move, of all clients together */
   HL_MAX_JOINTS = 0x4812F,           /**< 1; of all clients together */
   HL_DEVICE_FORCE_MAX = 0x48097,     /**< 1; N, peak */
-  HL_DEVICE_WRIST = 0x48164,         /**< 1; HL_TRUE: the device tells how its stylus is turned */
+  HL_DEVICE_WRIST = 0x48164,         /**< 1; HL_TRUE: the device reports how its stylus is turned */
   HL_GRIPPER_MAX = 0x48165,          /**< 1; rad: how far its gripper opens; 0: it has none */
   HL_SPRING_STIFFNESS_MAX = 0x48098, /**< 1; N/m; 0: not known */
-  HL_SPRING_STIFFNESS = 0x48099,     /**< 1; N/m: K of the servo, as told at the beginning or set here since */
+  HL_SPRING_STIFFNESS = 0x48099,     /**< 1; N/m: K of the servo, as given at the beginning or set here since */
   HL_SPRING_DAMPING = 0x4809A        /**< 1; N s/m: B of the servo */
 };
 
@@ -277,7 +277,7 @@ enum {
   HL_STYLUS_SPIN = 0x48161,            /**< 3; rad/s: its angular velocity */
   HL_GRIPPER_ANGLE = 0x48162,          /**< 1; rad: how far the gripper is open */
   HL_REMOTE_HAND_COUNT = 0x48166,      /**< 1; hands of other servers of a shared world; see hlGetRemoteHands */
-  HL_GRIPPER_FORCE = 0x48163           /**< 1; N with which the hand closes it; 0: the device does not tell */
+  HL_GRIPPER_FORCE = 0x48163           /**< 1; N with which the hand closes it; 0: the device does not report it */
 };
 
 /** hlBody*: a rigid body. Its shape, by which it meets other bodies and the scene, is made from its mesh; the hand
@@ -395,7 +395,7 @@ typedef struct HLsample {
   HLdouble rotation[4]; /**< of the stylus: unit quaternion x y z w, to the axes of the world; 0 0 0 1: not turned */
   HLdouble spin[3];     /**< rad/s: its angular velocity */
   HLdouble gripper;     /**< rad: how far the gripper is open */
-  HLdouble grip_force;  /**< N with which the hand closes it; 0: the device does not tell */
+  HLdouble grip_force;  /**< N with which the hand closes it; 0: the device does not report it */
 } HLsample;
 
 /** What the hand has felt since the last hlTakeContactReport. World axes. */

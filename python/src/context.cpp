@@ -69,7 +69,7 @@ class Context {
     makeCurrent();
     requireLive();
   }
-  /// hl.h tells the end of a conversation once; here every call after it throws it, so that no loop goes on with what
+  /// hl.h reports the end of a conversation once; here every call after it throws it, so that no loop goes on with what
   /// was felt last.
   void requireLive() const {
     if (!lost_.empty()) throw CallFailed(HL_CONNECTION_LOST, lost_);

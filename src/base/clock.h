@@ -17,7 +17,7 @@ inline std::int64_t monotonicNow_ns() {
 /// Nanoseconds in seconds. RT-safe.
 inline double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
-/// a - b and a + b for times that a broken clock, device or file may have told: they wrap around. RT-safe.
+/// a - b and a + b for times that a broken clock, device or file may have given: they wrap around. RT-safe.
 inline std::int64_t wrappedDifference_ns(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
 }

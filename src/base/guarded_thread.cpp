@@ -25,8 +25,8 @@ struct Failures {
 // Filled from the front; never emptied. Names are few and known when HL is built.
 constinit std::array<Failures, kMaxThreadNames> failures_of{};
 
-// snprintf to the stack and write(2): telling of a failure needs no memory.
-void tellStderr(const char* thread, const char* what) {
+// snprintf to the stack and write(2): a report of a failure needs no memory.
+void reportToStderr(const char* thread, const char* what) {
   std::array<char, 256> line{};
   const int length = std::snprintf(line.data(), line.size(), "thread '%s' failed and goes on: %s\n", thread, what);
   if (length <= 0) return;
@@ -34,7 +34,7 @@ void tellStderr(const char* thread, const char* what) {
   (void)!::write(STDERR_FILENO, line.data(), bytes);
 }
 
-std::atomic<TellFailure> tell_failure{tellStderr};
+std::atomic<ReportFailure> report_failure{reportToStderr};
 
 // The place of this name, found or taken; null when all are.
 Failures* failuresOf(const char* thread) {
@@ -51,9 +51,9 @@ void fail(const char* what) noexcept {
     failures->now.store(true);
   }
   try {
-    tell_failure.load()(thread_name, what);
+    report_failure.load()(thread_name, what);
   } catch (...) {
-    tellStderr(thread_name, what);
+    reportToStderr(thread_name, what);
   }
 }
 
@@ -130,6 +130,6 @@ FixedVector<ThreadFailures, kMaxThreadNames> threadFailures() {
   return all;
 }
 
-void setTellFailure(TellFailure tell) { tell_failure.store(tell == nullptr ? tellStderr : tell); }
+void setReportFailure(ReportFailure report) { report_failure.store(report == nullptr ? reportToStderr : report); }
 
 }  // namespace hl

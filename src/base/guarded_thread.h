@@ -1,5 +1,5 @@
 // Every thread of HL runs guarded: what it throws costs the piece of work that threw it, and never the process, whose
-// servo may be holding somebody's hand. Failures are counted by the name of their thread, and told.
+// servo may be holding somebody's hand. Failures are counted by the name of their thread, and reported.
 #pragma once
 
 #include <atomic>
@@ -45,7 +45,7 @@ void nameThread(const char* name) noexcept;
 /// Of the calling thread, as it was started; "" for one that is not HL's.
 const char* threadName() noexcept;
 
-/// Runs a piece of work. What it throws is counted for the calling thread, told, and goes no further. Returns whether
+/// Runs a piece of work. What it throws is counted for this thread, reported, and goes no further. Returns whether
 /// nothing was thrown.
 bool guarded(FunctionRef<void()> work) noexcept;
 /// Until it throws nothing, or `wanted` no longer holds: for what must not be lost.
@@ -60,8 +60,8 @@ struct ThreadFailures {
 inline constexpr std::size_t kMaxThreadNames = 32;
 FixedVector<ThreadFailures, kMaxThreadNames> threadFailures();
 
-/// Told of each failure, by the thread that failed; may throw. The first is a line on stderr.
-using TellFailure = void (*)(const char* thread, const char* what);
-void setTellFailure(TellFailure tell);
+/// Called for each failure, by the thread that failed; may throw. The first is a line on stderr.
+using ReportFailure = void (*)(const char* thread, const char* what);
+void setReportFailure(ReportFailure report);
 
 }  // namespace hl

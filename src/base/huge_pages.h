@@ -24,7 +24,7 @@ class HugePages {
   /// Starts at a huge page; zero until written. Throws bad_alloc.
   ///
   /// Asked for without access first: where memory is locked (mlockall), Linux fills what can be accessed at once, with
-  /// small pages unless it has been told otherwise before.
+  /// small pages unless it has been set otherwise before.
   static void* allocate(std::size_t bytes) {
     const std::size_t size = rounded(bytes), room = size + kPage;
     void* mapped = mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

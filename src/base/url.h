@@ -23,7 +23,7 @@ struct Url {
   std::vector<UrlOption> options;
 };
 
-/// Throws hl::Error with the fault alone: the text is not told again, as it may hold a token.
+/// Throws hl::Error with the fault alone: the text is not repeated, as it may hold a token.
 Url parseUrl(std::string_view text);
 
 /// host:port as people write it, with the brackets of an IPv6 address.

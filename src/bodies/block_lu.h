@@ -25,7 +25,7 @@ class BlockLu {
   BlockLu() : lower_(kMaxBlocks), upper_(kMaxBlocks), right_(kMaxRows) {}
   /// A matrix of so many rows of blocks, <= kMaxRows.
   void begin(std::size_t rows);
-  /// Tells that the blocks (i, j) and (j, i) are not 0.
+  /// Sets that the blocks (i, j) and (j, i) are not 0.
   void couple(std::size_t i, std::size_t j) { neighbours_[i][j] = neighbours_[j][i] = true; }
   /// After all couple(): places for all blocks. False: there is no room for them.
   bool order();

@@ -66,7 +66,7 @@ PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& mee
 
 // A plane that has two convex shapes on its sides at both ends of a straight motion has them there all the way. Beside
 // a triangle a body rolls on the next one, or over an edge: the plane must keep it as well as a contact would. A
-// cylinder's points are told roughly beside a rim, its height above a plane exactly.
+// cylinder's points are given roughly beside a rim, its height above a plane exactly.
 bool BodyProblem::isKeptApart(const Meeting& meeting, const PairAtEnd& end) const {
   if (meeting.b != Row::kFixed || end.b.vertices.size() != 3) return false;
   const PlacedConvex& a = placed[static_cast<std::size_t>(meeting.a)][static_cast<std::size_t>(meeting.part_a)];

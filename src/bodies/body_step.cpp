@@ -134,7 +134,7 @@ void BodyStepper::bounce(BodyStepReport& report) {
   for (const std::size_t i : problem_.awake) bounced_[i] = problem_.nodes[i].spin != unbounced_[i] ? 1 : 0;
 }
 
-// What bears the hand and does not move is told as one, with key 0.
+// What bears the hand and does not move is reported as one, with key 0.
 void BodyStepper::collectGiven(std::span<GivenImpulses> given) const {
   for (std::size_t hand = 0; hand < given.size(); ++hand) {
     BodyImpulse fixed;

@@ -8,7 +8,7 @@ namespace hl {
 
 namespace {
 
-// Of a unit vector: what is nearer to the axis tells no side of it.
+// Of a unit vector: what is nearer to the axis gives no side of it.
 constexpr double kAlongAxis = 1e-5;
 
 // Cosine and sine of each half side: 2 i of edge i, 2 i + 1 of the side after it.

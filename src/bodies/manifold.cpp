@@ -269,7 +269,7 @@ bool manifoldOfPolytopes(const PlacedConvex& a, const PlacedConvex& b, double ma
   return !out.points.empty();
 }
 
-// What the manifold of a prism tells of how the cylinder is to be turned: `sign` is 1 for a. Where a side of the prism
+// What the manifold of a prism gives of how the cylinder is to be turned: `sign` is 1 for a. Where a side of the prism
 // was met by something narrow, the tangent plane there is the true one.
 PlacedConvex turnedFor(const Manifold& rough, const PlacedConvex& cylinder, double sign, PlacedRoom& room) {
   const auto sides = cylinder.normals.subspan(kCylinderEnds);

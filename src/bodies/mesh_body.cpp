@@ -52,7 +52,7 @@ double massOf(const BodySpec& spec, double volume_m3) {
   return mass_kg;
 }
 
-// Of a round bar, also of a disc, two sides of the bounds are equal. Of a cube, they do not tell.
+// Of a round bar, also of a disc, two sides of the bounds are equal. Of a cube, they do not decide.
 int cylinderAxisOf(const Vec3& half) {
   constexpr double kEqual = 0.01;
   int longest = 2, axis = 2, candidates = 0;

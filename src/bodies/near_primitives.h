@@ -1,5 +1,5 @@
 // Near primitives: which primitives of a scene a convex shape may meet, where there are more than a step has time for.
-// They are told apart by a bound of the separation (separating axes without edges), and chosen evenly: in each octant
+// They are found by a bound of the separation (separating axes without edges), and chosen evenly: in each octant
 // around the shape those that are nearest, and of equally near ones those farthest out, which bear it best.
 #pragma once
 

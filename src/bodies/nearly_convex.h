@@ -16,7 +16,7 @@ struct NearlyConvex {
   double error_m() const { return std::max(excess_m, outside_m); }
 };
 
-/// Of what has more triangles, where to cut is told from a coarse mesh of it; the hulls hold all vertices.
+/// Of what has more triangles, where to cut is found from a coarse mesh of it; the hulls hold all vertices.
 inline constexpr std::size_t kCoarseTriangles = 3000;
 
 /// One hull, if its error is at most `allowed_m` (> 0). Otherwise about as few as come up to that, or `most` (> 0) of

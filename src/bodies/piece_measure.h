@@ -3,7 +3,7 @@
 // Of a solid: from a point of the surface, along its outward normal, the hull is full of air until the way meets the
 // surface again or leaves the hull: across a hole, a groove or the inside of a cup. The error is how far the middle of
 // such a way, or its end, is from the surface. Where parts of a piece are apart, such ways may miss the air between
-// them: the middles of some lines between corners are told too, if they are not within the solid.
+// them: the middles of some lines between corners are measured too, if they are not within the solid.
 //
 // Of a shell, such as a bowl without thickness, and of a flat piece: the line between two of its corners lies in the
 // hull, and all that is not on the surface is air. The error is how far its middle is from the surface.
@@ -27,7 +27,7 @@ struct HullExcess {
 class PieceMeasure {
  public:
   /// Points of the surface that are measured are no farther apart than four times `allowed_m` (> 0), or an eighth of a
-  /// triangle. Errors below `allowed_m` may be told as the way through the air, which is longer.
+  /// triangle. Errors below `allowed_m` may be given as the way through the air, which is longer.
   /// `whole`: what all pieces are of; must outlive this.
   PieceMeasure(const CutSurface& whole, bool is_shell, double allowed_m)
       : whole_(whole), is_shell_(is_shell), allowed_m_(allowed_m) {}
@@ -35,7 +35,7 @@ class PieceMeasure {
   /// Flat pieces are as thick as this, m.
   double thickness() const { return allowed_m_ / 2; }
   HullExcess exactly(const CutPiece& piece) const;
-  /// Of both together, by lines alone: no more than exactly() tells. Measures no more once the error is above
+  /// Of both together, by lines alone: no more than exactly() gives. Measures no more once the error is above
   /// `enough_m`. Much faster where they are apart.
   HullExcess atLeast(const CutPiece& a, const CutPiece& b, double enough_m) const;
   /// Without the error of a solid; from some points, and of a hull of those corners that reach farthest: ten times

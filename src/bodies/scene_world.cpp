@@ -15,7 +15,7 @@ namespace hl {
 
 namespace {
 
-// Of a body of the scene: what is wrong with it is told with its name.
+// Of a body of the scene: what is wrong with it is reported with its name.
 template <typename Make>
 auto named(const Instance& instance, Make make) {
   try {
@@ -59,10 +59,10 @@ std::string coverWarning(const Instance& instance) {
 
 std::vector<std::string> coverWarnings(const Snapshot& snapshot) {
   std::vector<std::string> warnings;
-  std::set<const Shape*> told;
+  std::set<const Shape*> warned;
   for (const Instance& instance : snapshot.instances) {
     const std::string warning = coverWarning(instance);
-    if (!warning.empty() && told.insert(instance.shape.get()).second) warnings.push_back(warning);
+    if (!warning.empty() && warned.insert(instance.shape.get()).second) warnings.push_back(warning);
   }
   return warnings;
 }
@@ -89,7 +89,7 @@ Pose startOf(const Snapshot& snapshot, std::uint64_t key) {
   return {};
 }
 
-// The same joint, told from its other side: with its axis turned round the coordinate stays what it is.
+// The same joint, described from its other side: with its axis turned round the coordinate stays what it is.
 JointSpec turnedRound(JointSpec spec) {
   std::swap(spec.body_a, spec.body_b);
   if (spec.kind == JointKind::kDistance) std::swap(spec.anchor_W, spec.anchor_b_W);

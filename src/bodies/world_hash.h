@@ -1,4 +1,4 @@
-// World hash: one number for all that the next step of a world depends on, to tell in one comparison whether two runs
+// World hash: one number for all that the next step of a world depends on, to find in one comparison whether two runs
 // are the same to the bit.
 #pragma once
 

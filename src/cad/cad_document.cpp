@@ -42,7 +42,7 @@ std::string nameOf(const TDF_Label& label) {
   return name;
 }
 
-// Solids of one name are told apart by numbers.
+// Solids of one name are distinguished by numbers.
 class SolidList {
  public:
   void add(const TopoDS_Shape& shape, std::string name, std::optional<Rgb> colour) {

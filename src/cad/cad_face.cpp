@@ -62,7 +62,7 @@ class FaceMesh {
     }
   }
 
-  // In the middle of the triangle and of its sides, as far as the surface's coordinates there can be told.
+  // In the middle of the triangle and of its sides, as far as the surface's coordinates there are known.
   void measure(const std::array<int, 3>& node, const Vec3& corner, const Vec3& normal) {
     if (!mesh_.HasUVNodes()) return;
     const gp_XY a = mesh_.UVNode(node[0]).XY(), b = mesh_.UVNode(node[1]).XY(), c = mesh_.UVNode(node[2]).XY();

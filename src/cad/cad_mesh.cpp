@@ -51,7 +51,7 @@ struct FaceEstimate {
   double growth = 1;
 };
 
-// What a coarse mesh tells of finer ones.
+// What a coarse mesh shows of finer ones.
 struct MeshEstimate {
   std::vector<FaceEstimate> faces;
   double coarse_s = 0;  // of the processor

@@ -14,7 +14,7 @@ namespace hl {
 
 /// Metres of a shape in millimetres. Each of its solids is a part of the model, and so is what belongs to none. Edges
 /// that belong to no face become segments. Its reading says how exact it is.
-/// Throws hl::Error if there were more than `most_triangles`, with a deflection that gives fewer. `report` is told how
+/// Throws hl::Error if there were more than `most_triangles`, with a deflection that gives fewer. `report` is given how
 /// far it is, 0..1.
 Model meshCad(const CadShape& cad, const CadMeshing& meshing, const std::function<void(double)>& report,
               std::size_t most_triangles = kMaxCadTriangles);

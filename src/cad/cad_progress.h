@@ -24,14 +24,14 @@ class CadProgress {
     void Show(const Message_ProgressScope& /*scope*/, const Standard_Boolean /*force*/) override {
       constexpr double kStep = 0.01;
       const double now = low_ + (high_ - low_) * GetPosition();
-      if (now < told_ + kStep) return;
-      told_ = now;
+      if (now < reported_ + kStep) return;
+      reported_ = now;
       report_(now);
     }
 
     const std::function<void(double)>& report_;
     const double low_, high_;
-    double told_ = 0;
+    double reported_ = 0;
   };
 
   Handle(Indicator) indicator_;

@@ -22,7 +22,7 @@ struct CadSolid {
 
 struct CadShape {
   TopoDS_Shape shape;  ///< lengths in the file's units have become millimetres; those of BREP files are millimetres
-  std::vector<CadSolid> solids{};  ///< of the shape; empty: they are not told apart
+  std::vector<CadSolid> solids{};  ///< of the shape; empty: they are not distinguished
   std::vector<std::string> warnings{};
 };
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kReadPart = 0.5;  // of the time, before shapes are made of what was read
 
-// All of a file, with the names and colours of its solids. The number of its roots is told where some give none.
+// All of a file, with the names and colours of its solids. The number of its roots is reported where some give none.
 template <typename Reader>
 void transfer(Reader& reader, XSControl_Reader& roots, CadShape& cad, const std::function<void(double)>& report) {
   report(kReadPart);

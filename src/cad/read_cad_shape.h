@@ -8,7 +8,7 @@
 
 namespace hl {
 
-/// Opens no other file, and forbids that for good. Throws hl::Error for a file that cannot be used. `report` is told
+/// Opens no other file, and forbids that for good. Throws hl::Error for a file that cannot be used. `report` is given
 /// how far it is, 0..1.
 CadShape readCadShape(const ModelFile& file, const std::function<void(double)>& report);
 

@@ -49,7 +49,7 @@ std::string tlsFailure(const ServerAddress& address, SSL* handle, const boost::s
   return address.text() + " speaks no TLS 1.3 (" + error.message() + "); does it want hl:// ?";
 }
 
-// The certificate must be this host's; a name is also told to the server, an address is not (RFC 6066, 3).
+// The certificate must be this host's; a name is also sent to the server, an address is not (RFC 6066, 3).
 void expectHost(SSL* handle, const std::string& host) {
   if (X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(handle), host.c_str()) == 1) return;
   SSL_set1_host(handle, host.c_str());

@@ -88,9 +88,9 @@ void Conversation::send(proto::BodyCommand command) {
   if (!ended_) link_->send(std::move(message));
 }
 
-// From the first body on the states tell of bodies.
+// From the first body on the states hold bodies.
 void Conversation::add(Draft&& draft) {
-  if (draft.hasBodies() && !std::exchange(told_of_bodies_, true)) askForBodies();
+  if (draft.hasBodies() && !std::exchange(wants_bodies_, true)) askForBodies();
   outbox_.add(std::move(draft));
 }
 
@@ -100,7 +100,7 @@ void Conversation::hearBodies() {
 
 void Conversation::askForBodies() {
   proto::ClientMessage message;
-  message.mutable_body_request()->set_wanted(told_of_bodies_);
+  message.mutable_body_request()->set_wanted(wants_bodies_);
   message.mutable_body_request()->set_events(hears_bodies_);
   if (!ended_) link_->send(std::move(message));
 }

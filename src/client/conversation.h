@@ -28,7 +28,7 @@ class Conversation {
   const ServerView& view() const { return view_; }
   const Outbox& outbox() const { return outbox_; }
   bool hasEnded() const { return ended_; }
-  /// As if told by the server at the beginning or set here since, N/m.
+  /// As given by the server at the beginning or set here since, N/m.
   double springStiffness_N_m() const;
 
   /// The frame waits until sendFrame().
@@ -43,7 +43,7 @@ class Conversation {
   void keepSamples(std::size_t most);
   SampleList& samples() { return samples_; }
   void keepContactReports(bool wanted);
-  /// Asks to be told the events of bodies from now on.
+  /// Asks to be notified of the events of bodies from now on.
   void hearBodies();
   ContactReports& contactReports() { return contact_reports_; }
   /// Seconds of Frame.interval_s for the frames to come; empty: left to the server.
@@ -69,7 +69,7 @@ class Conversation {
   std::optional<double> interval_s_;
   std::optional<double> stiffness_N_m_;
   std::uint64_t refusals_ = 0;
-  bool ended_ = false, told_of_bodies_ = false, hears_bodies_ = false;
+  bool ended_ = false, wants_bodies_ = false, hears_bodies_ = false;
 };
 
 }  // namespace hl::client

@@ -27,7 +27,7 @@ struct VertexUpdate {
 using ObjectItem = std::pair<HLuint, std::uint32_t>;
 
 /// How an object yields, and for which force on the hand its mesh was computed. World axes.
-inline constexpr double kMaxToldCompliance = 1e9;  // m/N and N: what a server takes
+inline constexpr double kMaxSentCompliance = 1e9;  // m/N and N: what a server takes
 struct ObjectCompliance {
   double normal_m_N = 0, tangential_m_N = 0;
   std::array<double, 3> computed_for_N{};

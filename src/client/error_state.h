@@ -9,7 +9,7 @@ namespace hl::client {
 
 class ErrorState {
  public:
-  /// Keeps the error if none is kept, and tells the callback. `function`: the call that makes it; null: none does.
+  /// Keeps the error if none is kept, and calls the callback. `function`: the call that makes it; null: none does.
   void note(HLenum code, const char* function, const std::string& text) noexcept;
   /// The kept error, forgotten; HL_NO_ERROR: none.
   HLenum take() noexcept;

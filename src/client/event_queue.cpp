@@ -44,7 +44,7 @@ class Delivering {
 void EventQueue::setCallback(HLenum kind, HLeventfunc callback, void* user) {
   if (kind < HL_EVENT_TOUCH || kind > HL_EVENT_IMPACT) throw Fault(HL_INVALID_ENUM, "the kind must be HL_EVENT_...");
   callbacks_[kind - HL_EVENT_TOUCH] = {callback, user};
-  if (kind == HL_EVENT_MOTION) told_.reset();
+  if (kind == HL_EVENT_MOTION) notified_.reset();
 }
 
 void EventQueue::push(const proto::Event& event) {
@@ -56,9 +56,9 @@ void EventQueue::push(const proto::Event& event) {
 
 void EventQueue::pushMotion(const proto::ClientState& state) {
   if (callbacks_[proto::MOTION].function == nullptr) return;
-  const bool is_first = !told_;
-  if (!is_first && distanceOf(state.finger(), *told_) < kMotion_m * state.workspace().world_per_device()) return;
-  told_ = state.finger();
+  const bool is_first = !notified_;
+  if (!is_first && distanceOf(state.finger(), *notified_) < kMotion_m * state.workspace().world_per_device()) return;
+  notified_ = state.finger();
   if (is_first) return;
   proto::Event event;
   event.set_kind(proto::MOTION);

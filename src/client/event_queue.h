@@ -11,7 +11,7 @@
 
 namespace hl::client {
 
-/// Of the hand, since the last motion that was told: more than it trembles.
+/// Of the hand, since the last motion that was notified: more than it trembles.
 inline constexpr double kMotion_m = 0.001;
 
 /// Of events that nobody polls the oldest are dropped: this is seconds of them.
@@ -37,7 +37,7 @@ class EventQueue {
   };
   std::array<Callback, 7> callbacks_;  // by HL_EVENT_... - HL_EVENT_TOUCH
   std::deque<HLevent> events_;
-  std::optional<proto::Vec3> told_;  // the finger, world, at the last motion; none: not since the callback was set
+  std::optional<proto::Vec3> notified_;  // the finger, world, at the last motion; none: not since the callback was set
   bool delivering_ = false;
 };
 

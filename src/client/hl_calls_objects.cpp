@@ -162,7 +162,7 @@ void hlCompliance(HLuint object, HLdouble normal, HLdouble tangential, const HLd
     hl::client::requireFinite(normal, tangential);
     hl::client::requireFinite(x, y, z);
     if (normal < 0 || tangential < 0) throw Fault(HL_INVALID_VALUE, "a compliance must not be negative");
-    if (std::max({normal, tangential, std::abs(x), std::abs(y), std::abs(z)}) > hl::client::kMaxToldCompliance)
+    if (std::max({normal, tangential, std::abs(x), std::abs(y), std::abs(z)}) > hl::client::kMaxSentCompliance)
       throw Fault(HL_INVALID_VALUE, "the numbers must be at most 1e9");
     if (!context.objects.isDefined(object)) throw Fault(HL_INVALID_VALUE, "the object is not defined");
     context.frame.compliances[object] = compliance;

@@ -22,7 +22,7 @@ std::int64_t taken_ns(const DeviceSample& sample) { return wrappedDifference_ns(
 void measureSpeed(Safety& safety, const DeviceSample& sample) {
   const double window_s = age_s(taken_ns(sample), safety.mark_ns);
   if (window_s >= 0 && window_s < seconds(SafetySettings::kSpeedWindow_ns)) return;
-  // A clock that went back tells no speed: a new window begins.
+  // A clock that went back gives no speed: a new window begins.
   safety.speed_m_s = window_s > 0 ? (sample.position - safety.mark_D).norm() / window_s : 0;
   safety.mark_D = sample.position;
   safety.mark_ns = taken_ns(sample);
@@ -77,7 +77,7 @@ bool deviceWasAway(FaultReason reason) {
          reason == FaultReason::kDeviceReturned;
 }
 
-// In fault: tells when a device that was away has returned, and arms again where that is wanted.
+// In fault: reports when a device that was away has returned, and arms again where that is wanted.
 void awaitReturn(Safety& safety, const SafetySettings& settings, const DeviceSample& sample) {
   if (!deviceWasAway(safety.fault)) return;
   if (sample.status != DeviceStatus::kOk)

@@ -48,7 +48,7 @@ const char* faultText(FaultReason reason);
 enum class DeadMan : std::uint8_t {
   kNone,
   kButton,  ///< a button of the device
-  kHeld     ///< the device, where it can tell
+  kHeld     ///< the device, where it can report this
 };
 
 struct SafetySettings {

@@ -105,7 +105,7 @@ bool shakes(const AxisSwings& axis, double period_s) {
   return axis.row >= kRow && row_s >= (large ? kLargeRow_s : kRow_s);
 }
 
-// The newest period tells Ku, which is not above the stiffness that swings, and w.
+// The newest period gives Ku, which is not above the stiffness that swings, and w.
 void soften(VibrationGuard& guard, const AxisSwings& axis, const SpringStep& step, double period_s) {
   const Swing &one = axis.last[0], &other = axis.last[1];
   const double way_m = one.way_m + other.way_m;

@@ -62,7 +62,7 @@ std::string configuration(const std::string& interfaces, const char* multicast, 
          "<SPDPInterval>1s</SPDPInterval></Discovery>" + kSizes + "</Domain></CycloneDDS>";
 }
 
-// At the machine's own address, as other programs tell it by default, and at that of those that are kept to this
+// At the machine's own address, as other programs send it by default, and at that of those that are kept to this
 // machine. Without multicast, which lo does not have.
 std::string loopbackConfiguration(double lease_s) {
   const std::string own = hasAddress() ? R"(<NetworkInterface autodetermine="true" multicast="false"/>)" : "";
@@ -76,10 +76,10 @@ std::string networkConfiguration(const DdsReach& reach, double lease_s) {
 }
 
 // The first few: whoever sends what is no packet may send it for ever.
-void tellPerson(const char* program, std::string_view text) {
+void reportLine(const char* program, std::string_view text) {
   constexpr int kMax = 20;
-  static std::atomic<int> told{0};
-  const int number = ++told;
+  static std::atomic<int> reported{0};
+  const int number = ++reported;
   if (number > kMax) return;
   while (text.ends_with('\n')) text.remove_suffix(1);
   std::fprintf(stderr, "%s: Cyclone DDS: %.*s%s\n", program, static_cast<int>(text.size()), text.data(),
@@ -112,15 +112,15 @@ void DdsNode::hearLog(void* node, const dds_log_data_t* line) {
   const DdsNode& self = *static_cast<const DdsNode*>(node);
   const std::string_view text(line->message, line->size);
   if ((line->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0) {
-    tellPerson(self.program_, text);
+    reportLine(self.program_, text);
   } else if (text.find("deserialization") != text.npos || text.find("malformed packet") != text.npos ||
              text.find("oversize") != text.npos) {
-    self.tell_();
+    self.report_malformed_();
   }
 }
 
-DdsNode::DdsNode(const DdsNodeSettings& settings, TellMalformed tell)
-    : program_(settings.program), tell_(std::move(tell)) {
+DdsNode::DdsNode(const DdsNodeSettings& settings, ReportMalformed report)
+    : program_(settings.program), report_malformed_(std::move(report)) {
   const bool stays = settings.reach.interface_name == "lo";
   if (!stays) leaveLoopback();
   const Qos qos = emptyQos();

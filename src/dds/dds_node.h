@@ -23,10 +23,10 @@ struct DdsNodeSettings {
 class DdsNode {
  public:
   /// Called by threads of Cyclone DDS for what is no packet or sample, or a too long one; it may throw nothing.
-  using TellMalformed = std::function<void()>;
+  using ReportMalformed = std::function<void()>;
 
   /// Throws hl::Error when there is no room for a participant in this domain, or its keys do not fit.
-  DdsNode(const DdsNodeSettings& settings, TellMalformed tell);
+  DdsNode(const DdsNodeSettings& settings, ReportMalformed report);
   /// All that it has made, and its listeners, end with it.
   ~DdsNode();
   DdsNode(const DdsNode&) = delete;
@@ -39,7 +39,7 @@ class DdsNode {
   static void hearLog(void* node, const dds_log_data_t* line);
 
   const char* const program_;
-  const TellMalformed tell_;
+  const ReportMalformed report_malformed_;
   dds_entity_t domain_ = 0, participant_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What Cyclone DDS is told so that its plug-ins of DDS Security guard a participant.
+// The settings of Cyclone DDS by which its plug-ins of DDS Security guard a participant.
 #pragma once
 
 #include <dds/dds.h>

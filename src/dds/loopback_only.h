@@ -1,6 +1,6 @@
 // Loopback only: unless it is said otherwise, in a program with this file, bind() ties each socket of the internet to
 // the device lo. It hears what is sent to 127.0.0.1 and no more, and what it sends stays on the machine, whichever of
-// the machine's addresses it goes to. So Cyclone DDS may tell the machine's own address, at which programs expect their
+// the machine's addresses it goes to. So Cyclone DDS may send the machine's own address, at which programs expect their
 // neighbours by default, and can neither hear another machine nor speak to one.
 #pragma once
 

@@ -17,7 +17,7 @@ struct TopicHearing {
   RosInput input;
   std::uint32_t hand;
   std::string frame;
-  const RosParticipant::Tell* tell;
+  const RosParticipant::Send* send;
 };
 
 /// What one hand has of it.
@@ -70,7 +70,7 @@ void hear(dds_entity_t reader, void* argument) {
     if (infos[0].valid_data) {
       const auto& message = *static_cast<const Message*>(samples[0]);
       const char* const frame = frameOf(message);
-      (*hearing.tell)({hearing.input, hearing.hand, *frame == 0 || hearing.frame == frame,
+      (*hearing.send)({hearing.input, hearing.hand, *frame == 0 || hearing.frame == frame,
                        wrappedDifference_ns(dds_time(), infos[0].source_timestamp), monotonicNow_ns(), valueOf(message),
                        infos[0].publication_handle});
     }
@@ -81,13 +81,13 @@ void hear(dds_entity_t reader, void* argument) {
 }  // namespace
 
 struct RosParticipant::Parts {
-  explicit Parts(Tell to_tell) : tell(std::move(to_tell)) {}
+  explicit Parts(Send to_send) : send(std::move(to_send)) {}
 
   void open(const RosTask& task) {
     node.emplace(DdsNodeSettings{"hl-ros", task.domain, task.reach}, [this] {
       HandCommand malformed;
       malformed.input = RosInput::kMalformed;
-      tell(malformed);
+      send(malformed);
     });
     for (const std::string& hand : task.hands) add(hand);
   }
@@ -101,7 +101,7 @@ struct RosParticipant::Parts {
   void listen(const dds_topic_descriptor_t& type, const std::string& hand, const char* name, RosInput input,
               std::size_t number) {
     hearings.push_back(
-        std::make_unique<TopicHearing>(TopicHearing{input, static_cast<std::uint32_t>(number), rosFrame(hand), &tell}));
+        std::make_unique<TopicHearing>(TopicHearing{input, static_cast<std::uint32_t>(number), rosFrame(hand), &send}));
     const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(
         dds_create_listener(hearings.back().get()), dds_delete_listener);
     dds_lset_data_available(listener.get(), &hear<Message>);
@@ -155,13 +155,13 @@ struct RosParticipant::Parts {
     dds_write(hand.energy, &energy);
   }
 
-  const Tell tell;
+  const Send send;
   std::vector<std::unique_ptr<TopicHearing>> hearings;
   std::vector<RosHandTopics> hands;
   std::optional<DdsNode> node;  // its listeners have ended when it is gone
 };
 
-RosParticipant::RosParticipant(const RosTask& task, Tell tell) : parts_(std::make_unique<Parts>(std::move(tell))) {
+RosParticipant::RosParticipant(const RosTask& task, Send send) : parts_(std::make_unique<Parts>(std::move(send))) {
   parts_->open(task);
 }
 

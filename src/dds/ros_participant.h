@@ -12,10 +12,10 @@ namespace hl {
 class RosParticipant {
  public:
   /// Called by threads of Cyclone DDS, one for each topic at a time; it may throw nothing.
-  using Tell = std::function<void(const HandCommand&)>;
+  using Send = std::function<void(const HandCommand&)>;
 
   /// Others can find its topics when it is there. Throws hl::Error when there is no room for one in this domain.
-  RosParticipant(const RosTask& task, Tell tell);
+  RosParticipant(const RosTask& task, Send send);
   ~RosParticipant();
   RosParticipant(const RosParticipant&) = delete;
   RosParticipant& operator=(const RosParticipant&) = delete;

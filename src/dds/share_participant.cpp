@@ -16,9 +16,9 @@ constexpr std::int64_t kLook_ns = 100'000'000;
 
 }  // namespace
 
-ShareParticipant::ShareParticipant(const ShareTask& task, Tell tell)
+ShareParticipant::ShareParticipant(const ShareTask& task, Send send)
     : task_(task),
-      tell_(std::move(tell)),
+      send_(std::move(send)),
       node_({"hl-share", task.domain, task.reach, kLease_s}, [this] { ++malformed_; }),
       waitset_(made(dds_create_waitset(node_.participant()), "waitset")),
       readers_{makeReader(Lane::kStream), makeReader(Lane::kInbox), makeReader(Lane::kItems)},
@@ -49,7 +49,7 @@ void ShareParticipant::run() {
       more = false;
       for (const Reader& reader : readers_) more |= takeOne(reader);
     }
-    for (std::uint64_t left = malformed_.exchange(0); left > 0 && running_; --left) tell_({});
+    for (std::uint64_t left = malformed_.exchange(0); left > 0 && running_; --left) send_({});
   }
 }
 
@@ -61,9 +61,9 @@ bool ShareParticipant::takeOne(const Reader& reader) const {
   const auto& packet = *static_cast<const hl_share_Packet*>(samples[0]);
   if (infos[0].valid_data && packet.bytes._length <= kMaxPacket_bytes) {
     const char* const bytes = reinterpret_cast<const char*>(packet.bytes._buffer);
-    tell_({reader.lane, packet.key, std::string(bytes, packet.bytes._length)});
+    send_({reader.lane, packet.key, std::string(bytes, packet.bytes._length)});
   } else if (infos[0].valid_data) {
-    tell_({});
+    send_({});
   }
   dds_return_loan(reader.entity, samples, 1);
   return true;

@@ -15,15 +15,15 @@ class ShareParticipant {
  public:
   /// Called by a thread of its own; it may wait, and throws nothing. What comes meanwhile waits too, but for packets of
   /// the stream, in the place of which newer ones come. What is malformed or too long is an empty packet of the stream.
-  using Tell = std::function<void(const SharePacket&)>;
+  using Send = std::function<void(const SharePacket&)>;
 
   /// Others can find it when it is there. Throws hl::Error.
-  ShareParticipant(const ShareTask& task, Tell tell);
+  ShareParticipant(const ShareTask& task, Send send);
   ~ShareParticipant();
   ShareParticipant(const ShareParticipant&) = delete;
   ShareParticipant& operator=(const ShareParticipant&) = delete;
 
-  /// Before it nothing is told.
+  /// Before it nothing is sent.
   void start();
   /// Of one thread.
   ShareOutbox& out() { return out_; }
@@ -38,8 +38,8 @@ class ShareParticipant {
   bool takeOne(const Reader& reader) const;
 
   const ShareTask task_;
-  const Tell tell_;
-  std::atomic<std::uint64_t> malformed_{0};  // that have not been told
+  const Send send_;
+  std::atomic<std::uint64_t> malformed_{0};  // that have not been sent
   DdsNode node_;
   const dds_entity_t waitset_;
   const std::array<Reader, 3> readers_;

@@ -18,7 +18,7 @@ class Arm {
   virtual Vec3 velocity_D() const = 0;
   /// Where the encoders say that the tip is.
   virtual Vec3 countedTip_D() const = 0;
-  /// Tells the motors to make this force at the tip: rounded by the DAC, cut to their peak, held until the next call.
+  /// Sets the force that the motors make at the tip: rounded by the DAC, cut to their peak, held until the next call.
   virtual void drive(const Vec3& force_N) = 0;
   /// What the motors make now, at the tip.
   virtual Vec3 motorForce_N() const = 0;
@@ -32,8 +32,8 @@ class Arm {
 
  protected:
   /// The current after `dt_s` on its way to what the DAC says; in the units of both.
-  Vec3 currentAfter(const Vec3& now, const Vec3& told, double dt_s) const {
-    return current_lag_s_ > 0 ? Vec3(told + std::exp(-dt_s / current_lag_s_) * (now - told)) : told;
+  Vec3 currentAfter(const Vec3& now, const Vec3& commanded, double dt_s) const {
+    return current_lag_s_ > 0 ? Vec3(commanded + std::exp(-dt_s / current_lag_s_) * (now - commanded)) : commanded;
   }
 
  private:

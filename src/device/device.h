@@ -29,7 +29,7 @@ struct DeviceInfo {
   double velocity_max_m_s = 0;      ///< faster than this is a fault
   double servo_rate_Hz = 1000;      ///< recommended rate of the servo
   double servo_rate_max_Hz = 1000;  ///< at more it feels no better, or nobody has tried
-  bool has_wrist = false;           ///< it tells how the stylus is turned
+  bool has_wrist = false;           ///< it reports how the stylus is turned
   double gripper_max_rad = 0;       ///< how far its gripper opens; 0: it has none
 };
 
@@ -41,7 +41,7 @@ struct DeviceSample {
   Vec3 position = Vec3::Zero();
   std::uint32_t buttons = 0;  ///< bit i = button i pressed
   DeviceStatus status = DeviceStatus::kNotReady;
-  bool held = true;              ///< false: the device can tell, and nobody holds it
+  bool held = true;              ///< false: the device can report this, and nobody holds it
   Vec3 weight_N = Vec3::Zero();  ///< force that holds up the device itself here; zero where it needs none
   std::int64_t age_ns = 0;  ///< how long before time_ns the tip was there; a driver with a thread of its own is late
   Stylus stylus{};          ///< of a driver without its spin: StylusReader

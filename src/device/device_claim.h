@@ -10,7 +10,7 @@ namespace hl {
 class DeviceClaim {
  public:
   DeviceClaim() = default;
-  /// `key` tells the device from all others. Throws hl::Error when another claim has it.
+  /// `key` identifies the device. Throws hl::Error when another claim has it.
   explicit DeviceClaim(const std::string& key);
   ~DeviceClaim() { release(); }
   DeviceClaim(DeviceClaim&& other) noexcept : key_(std::move(other.key_)) { other.key_.clear(); }

@@ -103,7 +103,7 @@ DeviceModel omega3() {
   return {"omega3", infoOf(sheet), massOf(sheet, 0.2, 0.02)};
 }
 
-// As the omega.3, with a wrist of 0.09 degrees and a gripper that opens by 25 mm: 0.006 mm of it, told as angles of
+// As the omega.3, with a wrist of 0.09 degrees and a gripper that opens by 25 mm: 0.006 mm of it, reported as angles of
 // fingers assumed 50 mm long. Its mass with the wrist, 0.25 kg, is a guess.
 DeviceModel omega7() {
   const Sheet sheet{"Force Dimension omega.7", {0.160, 0.160, 0.110}, 12, 12, 0.1, 10e-6, 2000, 14500, 1};

@@ -13,7 +13,7 @@ namespace hl {
 class Exchange {
  public:
   // The servo thread, RT-safe.
-  /// What was told last, at `now_ns`; lost when it says nothing of where the hand is now.
+  /// What was last reported, at `now_ns`; lost when it says nothing of where the hand is now.
   DeviceSample newest(std::int64_t now_ns) {
     DeviceSample sample;
     const bool fresh = samples_.read(sample);
@@ -28,15 +28,15 @@ class Exchange {
   void pull(const Vec3& force_D) { forces_.write(force_D.allFinite() ? force_D : Vec3(Vec3::Zero())); }
 
   // The other thread, RT-safe.
-  /// `asked_ns`: on the monotonic clock, when the device was asked where it is. A thread that is held up tells late.
-  void tell(std::int64_t asked_ns, const Vec3& position_D, std::uint32_t buttons, DeviceStatus status,
-            const Stylus& stylus = {}) {
+  /// `asked_ns`: on the monotonic clock, when the device was asked where it is. A thread that is held up reports late.
+  void report(std::int64_t asked_ns, const Vec3& position_D, std::uint32_t buttons, DeviceStatus status,
+              const Stylus& stylus = {}) {
     DeviceSample sample{asked_ns, position_D, buttons, status};
     sample.stylus = stylus;
     samples_.write(sample);
   }
   /// It does not answer.
-  void tellLost() { tell(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kLost); }
+  void reportLost() { report(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kLost); }
   /// The newest force; zero when the servo has been silent for so long that it no longer stands for it.
   Vec3 wantedForce() {
     Vec3 force;

@@ -1,4 +1,4 @@
-// HandOrders: what a simulated hand is told to do, by one thread, for another that moves it.
+// HandOrders: what a simulated hand is ordered to do, by one thread, for another that moves it.
 #pragma once
 
 #include <Eigen/Geometry>

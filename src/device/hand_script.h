@@ -29,7 +29,7 @@ struct HandScript {
   std::optional<double> gripperAt(double time_s) const;
 };
 
-/// Writes the script of a person who is told what to do, one thing after the other.
+/// Writes the script of a person who gets instructions, one thing after the other.
 class PersonScript {
  public:
   /// Waits at `start` for so long.

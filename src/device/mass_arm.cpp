@@ -13,17 +13,17 @@ void MassArm::drive(const Vec3& force_N) {
   const double peak = parameters_.force_peak_N;
   const double count = parameters_.dac_bits > 0 ? 2 * peak / std::pow(2.0, parameters_.dac_bits) : 0;
   for (int i = 0; i < 3; ++i) {
-    told_[i] = std::clamp(force_N[i], -peak, peak - count);
-    if (count > 0) told_[i] = std::round(told_[i] / count) * count;
+    commanded_[i] = std::clamp(force_N[i], -peak, peak - count);
+    if (count > 0) commanded_[i] = std::round(commanded_[i] / count) * count;
   }
-  force_ = currentAfter(force_, told_, 0);
+  force_ = currentAfter(force_, commanded_, 0);
 }
 
 Vec3 MassArm::beyondStops() const { return tip_ - tip_.cwiseMax(parameters_.low_D).cwiseMin(parameters_.high_D); }
 
 void MassArm::step(const Vec3& pull_N, double dt_s) {
   const MassParameters& p = parameters_;
-  force_ = currentAfter(force_, told_, dt_s);
+  force_ = currentAfter(force_, commanded_, dt_s);
   Vec3 all_N = force_ + pull_N - p.damping_Ns_m * velocity_;
   const Vec3 beyond = beyondStops();
   for (int i = 0; i < 3; ++i) {

@@ -37,8 +37,8 @@ class MassArm final : public Arm {
   MassParameters parameters_;
   Vec3 tip_ = Vec3::Zero();
   Vec3 velocity_ = Vec3::Zero();
-  Vec3 told_ = Vec3::Zero();   // N, what the DAC says
-  Vec3 force_ = Vec3::Zero();  // N, what the current makes
+  Vec3 commanded_ = Vec3::Zero();  // N, what the DAC says
+  Vec3 force_ = Vec3::Zero();      // N, what the current makes
 };
 
 }  // namespace hl

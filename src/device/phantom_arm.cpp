@@ -55,9 +55,9 @@ void PhantomArm::drive(const Vec3& force_N) {
   for (int i = 0; i < 3; ++i) {
     const double peak = parameters_.motor_torque_peak_Nm * parameters_.gear[i];
     const double count = 2 * peak / std::pow(2.0, parameters_.dac_bits);
-    told_[i] = std::round(std::clamp(wanted[i], -peak, peak - count) / count) * count;
+    commanded_[i] = std::round(std::clamp(wanted[i], -peak, peak - count) / count) * count;
   }
-  torque_ = currentAfter(torque_, told_, 0);
+  torque_ = currentAfter(torque_, commanded_, 0);
 }
 
 Vec3 PhantomArm::motorForce_N() const {
@@ -66,7 +66,7 @@ Vec3 PhantomArm::motorForce_N() const {
 
 void PhantomArm::step(const Vec3& pull_N, double dt_s) {
   const PhantomParameters& p = parameters_;
-  torque_ = currentAfter(torque_, told_, dt_s);
+  torque_ = currentAfter(torque_, commanded_, dt_s);
   Vec3 torque = torque_ - phantomCoriolis(p, q_, qdot_) - p.joint_damping_Nms * qdot_;
   torque += phantomJacobian(p, q_).transpose() * toPhantom(pull_N);
   torque += phantomStops(p, q_, qdot_);

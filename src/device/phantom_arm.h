@@ -32,8 +32,8 @@ class PhantomArm final : public Arm {
   PhantomParameters parameters_;
   Vec3 q_ = Vec3::Zero();
   Vec3 qdot_ = Vec3::Zero();
-  Vec3 told_ = Vec3::Zero();    // N m at the joints, what the DAC says
-  Vec3 torque_ = Vec3::Zero();  // N m, what the current makes
+  Vec3 commanded_ = Vec3::Zero();  // N m at the joints, what the DAC says
+  Vec3 torque_ = Vec3::Zero();     // N m, what the current makes
   Vec3 friction_impulse_ = Vec3::Zero();
 };
 

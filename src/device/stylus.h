@@ -15,7 +15,7 @@ struct Stylus {
   Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
   Vec3 spin_rad_s = Vec3::Zero();  ///< its angular velocity
   double gripper_rad = 0;          ///< how far the gripper is open
-  double gripper_N = 0;            ///< with which the hand closes it; 0: the device does not tell
+  double gripper_N = 0;            ///< with which the hand closes it; 0: the device does not report it
 };
 
 inline bool operator==(const Stylus& a, const Stylus& b) {

@@ -7,12 +7,12 @@
 
 namespace hl {
 
-Stylus StylusReader::read(const Stylus& told, std::int64_t now_ns) {
+Stylus StylusReader::read(const Stylus& reported, std::int64_t now_ns) {
   Stylus now = last_;
-  Eigen::Quaterniond turned = told.turned;
+  Eigen::Quaterniond turned = reported.turned;
   if (toUnit(turned)) now.turned = turned;
-  if (std::isfinite(told.gripper_rad)) now.gripper_rad = told.gripper_rad;
-  if (std::isfinite(told.gripper_N)) now.gripper_N = told.gripper_N;
+  if (std::isfinite(reported.gripper_rad)) now.gripper_rad = reported.gripper_rad;
+  if (std::isfinite(reported.gripper_N)) now.gripper_N = reported.gripper_N;
   const double elapsed_s = last_ns_ ? seconds(now_ns - *last_ns_) : 0;
   if (elapsed_s > 0) {
     const Vec3 spin_rad_s = rotationVector(now.turned * last_.turned.conjugate()) / elapsed_s;

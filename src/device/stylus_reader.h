@@ -1,4 +1,4 @@
-// StylusReader: the stylus as the loops know it, whatever a driver tells of it.
+// StylusReader: the stylus as the loops know it, whatever a driver reports of it.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace hl {
 class StylusReader {
  public:
   /// What is no orientation, or not finite, is left as it was. The spin is that between readings, of which only some
-  /// devices tell; through a low pass of kSpinFilter_s, as encoders count in steps.
-  Stylus read(const Stylus& told, std::int64_t now_ns);
+  /// devices report; through a low pass of kSpinFilter_s, as encoders count in steps.
+  Stylus read(const Stylus& reported, std::int64_t now_ns);
   /// What it returned last.
   const Stylus& last() const { return last_; }
 

@@ -22,8 +22,8 @@ std::string fileOf(const VendorLibraryName& name) {
 VendorLibrary::VendorLibrary(const VendorLibraryName& name)
     : file_(fileOf(name)), advice_(name.advice), handle_(dlopen(file_.c_str(), RTLD_NOW | RTLD_LOCAL)) {
   if (handle_ == nullptr) {
-    const char* const told = dlerror();
-    const std::string reason = told != nullptr ? told : file_;  // kept: its own goes with the next call of the loader
+    const char* const given = dlerror();
+    const std::string reason = given != nullptr ? given : file_;  // kept: its own goes with the next call of the loader
     throw Error(reason + "; " + name.advice + ", or set " + name.variable + " to its file");
   }
 }

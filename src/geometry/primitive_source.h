@@ -31,7 +31,7 @@ enum class Site : std::uint8_t {
   kUnknown,  ///< the surface has no matter on one side: of no point it is known
   kOpen,     ///< no matter
   kMatter,
-  kBoundary,  ///< so near to the surface that only its triangles could tell
+  kBoundary,  ///< so near to the surface that only its triangles could decide
 };
 
 /// Memory that several sources use, such as the samples of a volume.
@@ -56,7 +56,7 @@ class PrimitiveSource {
   virtual std::array<Vec3, 3> corners(ElementId id) const = 0;
   /// Outward unit normal of the exact surface that the primitive approximates, near `point` on it. RT-safe.
   virtual Vec3 trueNormal(ElementId id, const Vec3& point) const = 0;
-  /// False if nothing tells the outside: then the opposite of each normal is as good. RT-safe.
+  /// False if nothing identifies the outside: then the opposite of each normal is as good. RT-safe.
   virtual bool hasOutside() const { return true; }
   /// Whether its triangles have texture coordinates. RT-safe.
   virtual bool hasTexcoords() const { return false; }

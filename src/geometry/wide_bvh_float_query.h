@@ -65,14 +65,14 @@ inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
   }
   const double reach = query.reach * per_step;
   // A block this small compared to the query cannot be tested in single precision: all its primitives are proposed.
-  const bool told = size + reach < kMaxSize;
+  const bool fits = size + reach < kMaxSize;
   BlockQuery packed;
   for (int i = 0; i < 3; ++i) {
-    packed.from[i] = told ? static_cast<float>(from[i]) : 0;
-    packed.motion[i] = told ? static_cast<float>(motion[i]) : 0;
+    packed.from[i] = fits ? static_cast<float>(from[i]) : 0;
+    packed.motion[i] = fits ? static_cast<float>(motion[i]) : 0;
   }
   const double grown = (reach + kPacked + kWideRounding * size) * (1 + kWideRounding);
-  packed.reach = told ? static_cast<float>(grown) : std::numeric_limits<float>::infinity();
+  packed.reach = fits ? static_cast<float>(grown) : std::numeric_limits<float>::infinity();
   return packed;
 }
 

@@ -105,7 +105,7 @@ class HttpServer::Impl {
   }
 
  private:
-  // A handler that throws has lost its own work only. What never ends, accepting connections and telling pages, begins
+  // A handler that throws has lost its own work only. What never ends, accepting connections and feeding pages, begins
   // again where it was lost so.
   void run() {
     while (!stopping_ || !context_.stopped()) {
@@ -202,11 +202,11 @@ class HttpServer::Impl {
     const ServerCounts counts{traffic_, listener_.connections(), pages_.pages(), listener_.refused()};
     HttpResponse response = co_await doOn(page_worker_, [&] { return answers_.answer(request, counts); });
     const bool denied = response.result() == http::status::forbidden || response.result() == http::status::unauthorized;
-    if (denied) tellDenied(peer, request, response);
+    if (denied) logDenied(peer, request, response);
     co_return response;
   }
 
-  void tellDenied(const std::string& peer, const HttpRequest& request, const HttpResponse& response) {
+  void logDenied(const std::string& peer, const HttpRequest& request, const HttpResponse& response) {
     traffic_.refuse(RefusedBecause::kAccess);
     const std::string host(request[http::field::host]);
     logEvent(LogLevel::kWarning, "refused", {{"peer", peer}, {"host", host}, {"reason", response.body()}});
@@ -226,7 +226,7 @@ class HttpServer::Impl {
   SessionHost* host_;
   asio::io_context context_{1};
   Workers light_workers_, heavy_workers_;  // for HL clients
-  Workers page_worker_;                    // for what pages are told and what is asked over HTTP
+  Workers page_worker_;                    // for what pages are sent and what is asked over HTTP
   Traffic traffic_;
   Listener listener_;
   Access access_;

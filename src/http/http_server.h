@@ -1,5 +1,5 @@
 // HttpServer: the page and its WebSocket /viewer, HL clients at /hl, /healthz, /metrics and /upload, on one port.
-// One thread moves bytes and talks with the pages; a few workers decode what HL clients send. Loopback only unless told
+// One thread moves bytes and talks with the pages; a few workers decode what HL clients send. Loopback only unless set
 // otherwise; beyond it insists on TLS and a token. Every message is bounded, and nothing is queued for a slow reader.
 #pragma once
 

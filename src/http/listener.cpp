@@ -87,7 +87,7 @@ void Listener::start(ServeConnection serve) {
 }
 
 void Listener::keepAccepting() {
-  if (!accepting_ && !stopping_) asio::co_spawn(context_, accept(), tellEnd);
+  if (!accepting_ && !stopping_) asio::co_spawn(context_, accept(), reportEnd);
 }
 
 asio::awaitable<void> Listener::accept() {
@@ -116,7 +116,7 @@ void Listener::take(tcp::socket socket) {
   socket.set_option(tcp::no_delay(true), gone);
   auto slot = std::make_unique<Slot>(
       *this, std::make_shared<Connection>(Stream::Tcp(std::move(socket)), settings_.tls.get(), nameOf(peer)));
-  asio::co_spawn(context_, admit(std::move(slot)), tellEnd);
+  asio::co_spawn(context_, admit(std::move(slot)), reportEnd);
 }
 
 asio::awaitable<void> Listener::admit(std::unique_ptr<Slot> slot) {
@@ -143,7 +143,7 @@ void Listener::stop(std::chrono::milliseconds grace) {
       connection->stream.close();
     }
   }
-  if (!connections_.empty()) asio::co_spawn(context_, closeLater(grace), tellEnd);
+  if (!connections_.empty()) asio::co_spawn(context_, closeLater(grace), reportEnd);
 }
 
 asio::awaitable<void> Listener::closeLater(std::chrono::milliseconds grace) {

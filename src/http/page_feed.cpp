@@ -62,7 +62,7 @@ PageFeed::PageFeed(asio::io_context& context, Workers& worker, double rate_Hz, F
       timer_(context) {}
 
 void PageFeed::keepFeeding() {
-  if (!feeding_ && !stopped_) asio::co_spawn(context_, feed(), tellEnd);
+  if (!feeding_ && !stopped_) asio::co_spawn(context_, feed(), reportEnd);
 }
 
 void PageFeed::stop() {
@@ -78,7 +78,7 @@ asio::awaitable<void> PageFeed::serve(ConnectionPointer connection, http::reques
   auto [refused] = co_await page->stream.accept(request);
   if (refused) co_return;
   const Membership membership(*this, page);
-  asio::co_spawn(context_, greet(page), tellEnd);
+  asio::co_spawn(context_, greet(page), reportEnd);
   co_await listen(page);
 }
 
@@ -125,7 +125,7 @@ asio::awaitable<void> PageFeed::feed() {
     const auto state = co_await doOn(worker_, [this] { return newestState(); });
     if (!state) continue;
     for (const PagePointer& page : pages_) {
-      if (!page->busy) asio::co_spawn(context_, send(page, state), tellEnd);
+      if (!page->busy) asio::co_spawn(context_, send(page, state), reportEnd);
     }
   }
 }

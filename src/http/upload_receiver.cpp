@@ -39,7 +39,7 @@ struct UploadReceiver::Body {
   bool waits;  // for the word to go on
 };
 
-/// Ends what the connection waits for when its time is over, and leaves the connection open, so that it can be told.
+/// Ends what the connection waits for when its time is over, and leaves the connection open, so that it gets an answer.
 class UploadReceiver::TimeLimit {
  public:
   TimeLimit(asio::io_context& context, ConnectionPointer connection, std::chrono::milliseconds time)

@@ -19,10 +19,10 @@ struct UploadRefusal {
   std::string text;
 };
 
-/// The length of a request's body as its head tells it.
+/// The length of a request's body as its head gives it.
 struct BodyLength {
   std::optional<std::uint64_t> bytes;
-  bool chunked = false;  ///< in pieces until the last one: the length is not told
+  bool chunked = false;  ///< in pieces until the last one: the length is not given
 };
 
 bool isUpload(std::string_view target);  ///< for /upload, whatever the query

@@ -59,7 +59,7 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   boost::asio::awaitable<void> run(boost::beast::http::request<boost::beast::http::string_body> request);
 
  private:
-  // Why this session ends, as the client is told.
+  // Why this session ends, as reported to the client.
   struct Ending {
     boost::beast::websocket::close_code code = boost::beast::websocket::close_code::normal;
     std::string text;

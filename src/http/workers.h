@@ -44,8 +44,8 @@ class Workers {
   std::vector<std::thread> threads_;
 };
 
-/// How a coroutine that nobody waits for ends: what it threw is counted and told.
-inline void tellEnd(std::exception_ptr thrown) {
+/// How a coroutine that nobody waits for ends: what it threw is counted and reported.
+inline void reportEnd(std::exception_ptr thrown) {
   if (thrown) guarded([&] { std::rethrow_exception(thrown); });
 }
 

@@ -1,5 +1,5 @@
 // Decode: the parts that scene files and frames of clients share, from messages of proto/hl.proto to the scene's own
-// types. Every number is checked; what is wrong is told with the path of its value, "objects[2].material.stiffness".
+// types. Every number is checked; an error is reported with the path of its value, "objects[2].material.stiffness".
 #pragma once
 
 #include <hl.pb.h>

@@ -146,7 +146,7 @@ class Child {
       cpu_s_ = static_cast<double>(used.tv_sec) + seconds(used.tv_nsec);
     return cpu_s_;
   }
-  /// Kills it where it still runs; else what waitpid() tells of its own end, though it be only just under way.
+  /// Kills it where it still runs; else what waitpid() reports of its own end, though it be only just under way.
   int end() {
     if (id_ <= 0) return status_;
     kill(id_, SIGKILL);

@@ -27,7 +27,7 @@ struct IsolationLimits {
   double idle_s = 10;   ///< without using the processor or giving anything: it waits for what will not come
 };
 
-/// To whom a parser tells how far it is, and gives samples.
+/// To whom a parser reports how far it is, and gives samples.
 class ReadingReport {
  public:
   ReadingReport(std::function<void(double fraction)> progress, HeightSink& heights, VolumeSink& volume,

@@ -157,7 +157,7 @@ const aiScene* readAlone(Assimp::Importer& importer, const ModelFile& file, Mode
 }
 
 // `refused`: of OwnFolder; `read`: the file made sense without it.
-void tellRefused(const std::string& refused, bool read, Model& model) {
+void reportRefused(const std::string& refused, bool read, Model& model) {
   if (refused.empty()) return;
   const std::string name = shown(std::filesystem::path(refused).filename().string());
   if (!read) throw Error(fmt::format("names '{}', which is not in its folder: put that file beside it", name));
@@ -219,7 +219,7 @@ SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(doubl
   Model model;
   GltfHaptics haptics = hapticsOf(file);
   const aiScene* scene = readScene(importer, file, model);
-  tellRefused(refused, scene != nullptr, model);
+  reportRefused(refused, scene != nullptr, model);
   addScene(importer, file, scene, std::move(haptics), model);
   return model;
 }

@@ -443,8 +443,8 @@ void SceneFile::addJoints(SceneModel& scene) const {
 
 SceneModel SceneFile::build() {
   checkFinite(scene_, "");
-  const bool untold = scene_.units() == 0 && !lines_.has("units");
-  const double units = untold ? 1 : decoder_.checked(scene_.units(), 1e-9, 1e9, "units");
+  const bool absent = scene_.units() == 0 && !lines_.has("units");
+  const double units = absent ? 1 : decoder_.checked(scene_.units(), 1e-9, 1e9, "units");
   if (scene_.objects_size() > kMaxObjects) throw Error(path_ + ": there are more than 60000 objects in it");
   SceneModel scene;
   Model& whole = scene.model;

@@ -11,7 +11,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMaxMissing = 8;  // names to tell
+constexpr std::size_t kMaxMissing = 8;  // names to report
 
 // Each has its own place in the file.
 class FileStream final : public Assimp::IOStream {

@@ -1,5 +1,5 @@
 // OnlyFile: what assimp sees of the disk when a file comes alone: the file itself, through a descriptor that is open
-// already. What else the file asks for is not there, and is told.
+// already. What else the file asks for is not there, and is reported.
 #pragma once
 
 #include <assimp/IOStream.hpp>

@@ -31,7 +31,7 @@ class OutputFile {
   }
   /// What is written so far is there whatever comes.
   void flush();
-  /// Everything is written. Without this call nobody is told when the end cannot be.
+  /// Everything is written. Without this call it is not reported when the end cannot be.
   void close();
 
  private:

@@ -7,7 +7,7 @@
 
 namespace hl {
 
-// What does not exist is assimp's to tell: it tries names.
+// What does not exist is reported by assimp: it tries names.
 bool OwnFolder::isOwn(const std::string& file) const {
   std::error_code failed;
   if (file == path_ || !std::filesystem::exists(file, failed) || isCompanion(path_, file)) return true;

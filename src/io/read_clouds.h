@@ -9,9 +9,9 @@
 
 namespace hl {
 
-/// Whether a reader takes files of this ending (".las") as clouds. Of a .ply, isPlyOfPoints() tells.
+/// Whether a reader takes files of this ending (".las") as clouds. Of a .ply, isPlyOfPoints() decides.
 bool readsClouds(const std::string& ending);
-/// A PLY file whose header tells of vertices and of nothing that joins them.
+/// A PLY file whose header states vertices and of nothing that joins them.
 bool isPlyOfPoints(const std::string& path);
 /// Empty, or what to do with a file of this ending that holds points but cannot be read.
 std::string cloudAdvice(const std::string& ending);

@@ -41,7 +41,7 @@ class TiffFile {
   }
 
   [[noreturn]] static void fail() {
-    // Of a row that lacks libtiff tells a number that is none.
+    // Of a row that lacks libtiff gives a number that is none.
     if (tiff_failure.starts_with("Read error")) throw Error("is cut or corrupt: it ends before its last samples");
     throw Error("is not a sound TIFF file" + (tiff_failure.empty() ? "" : ": " + shown(tiff_failure)));
   }
@@ -140,7 +140,7 @@ bool inDegrees(const TiffFile& file) {
 // Units of the file for a step to the next column and row, and the latitude of the first row if it is in degrees.
 struct Steps {
   double east = 1, south = 1, first_row = 0;
-  bool told = false;
+  bool given = false;
 };
 
 Steps stepsOf(const TiffFile& file, HeightSink& sink) {
@@ -166,7 +166,7 @@ Steps stepsOf(const TiffFile& file, HeightSink& sink) {
 
 GridFrame frameOf(const TiffFile& file, const GridSize& size, HeightSink& sink) {
   Steps steps = stepsOf(file, sink);
-  if (!steps.told) sink.warn("says nothing of the distance between its samples: 1 m");
+  if (!steps.given) sink.warn("says nothing of the distance between its samples: 1 m");
   if (inDegrees(file)) {
     const double middle = steps.first_row - 0.5 * steps.south * (size.rows - 1.0);
     const DegreeLength spacing = spacingOfDegrees(steps.east, steps.south, middle, sink);
@@ -187,7 +187,7 @@ class Giver {
     else
       rounded_ += form_.give(given, count, sink_);
   }
-  void tell() const {
+  void reportRounding() const {
     if (rounded_ > 0) sink_.warn("its numbers are kept in single precision");
   }
 
@@ -239,7 +239,7 @@ void readGeoTiff(const ModelFile& path, HeightSink& sink) {
   Giver giver(samples, sink);
   TIFFIsTiled(file.get()) != 0 ? readTiles(file, size, samples.bytes, giver)
                                : readStrips(file, size, samples.bytes, giver);
-  giver.tell();
+  giver.reportRounding();
 }
 
 }  // namespace hl

@@ -129,7 +129,7 @@ void readEsriGrid(const ModelFile& file, HeightSink& sink) {
   const GridSize size{sideOf(header.columns, "ncols"), sideOf(header.rows, "nrows"), SampleKind::kFloat32};
   const auto sound = [](double step) { return std::isfinite(step) && step > 0; };
   if (!sound(header.east) || !sound(header.south)) throw Error("says no cellsize that could be");
-  // A sample has a digit, and a blank before it. Of few samples the first that is none is told instead.
+  // A sample has a digit, and a blank before it. Of few samples the first that is none is reported instead.
   constexpr std::size_t kFew = std::size_t{1} << 20;
   if (size.samples() > kFew && std::filesystem::file_size(file.path) / 2 < size.samples()) throw Error(kEndsEarly);
   sink.header({size, header.missing, uprightFrame(size, header.east, header.south, 1)});

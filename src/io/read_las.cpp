@@ -123,7 +123,7 @@ void inLasPieces(ByteFile& in, const LasHeader& header, const Each& each) {
 constexpr std::uint16_t kMaxOfByte = 255;
 
 // The largest number of a colour, or one above 255: then others do not matter. Colours have 16 bits, yet many programs
-// write 8 of them, and some write none at all: only the whole file tells. In one of 16 bits the first points do.
+// write 8 of them, and some write none at all: only the whole file shows it. In one of 16 bits the first points do.
 std::uint16_t mostOfColours(const std::string& path, const LasHeader& header, std::size_t at) {
   ByteFile in(path);
   in.skip(header.offset_bytes);

@@ -176,7 +176,7 @@ class InputCollector {
   void addProgram(const std::string& name) {
     try {
       files_.emplace(name, readingProgram(name, ""));
-    } catch (const Error&) {  // the task that reads the file will tell
+    } catch (const Error&) {  // the task that reads the file will report it
     }
   }
   void addDicom(const fs::path& folder) {

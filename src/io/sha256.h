@@ -1,4 +1,4 @@
-// SHA-256, by OpenSSL: names what something was made from, and tells whether what is there is whole.
+// SHA-256, by OpenSSL: names what something was made from, and shows whether what is there is whole.
 #pragma once
 
 #include <array>

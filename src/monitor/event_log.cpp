@@ -84,7 +84,7 @@ void openEventLog(LogFormat format, LogLevel level) {
                                                      : "time=%Y-%m-%dT%H:%M:%S.%e%z level=%l %v");
   log.logger->set_level(levelOf(level));
   log.logger->flush_on(spdlog::level::debug);
-  setTellFailure([](const char* thread, const char* what) {
+  setReportFailure([](const char* thread, const char* what) {
     logEvent(LogLevel::kError, "work_failed", {{"thread", thread}, {"reason", what}});
   });
   // What protobuf says of a client's garbage is no line of this log's form, and the refusal is logged anyway.

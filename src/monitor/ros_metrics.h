@@ -1,4 +1,4 @@
-// RosMetrics: what a bridge to ROS 2 has told and taken, for /metrics.
+// RosMetrics: what a bridge to ROS 2 has published and taken, for /metrics.
 #pragma once
 
 #include "monitor/monitor_callbacks.h"

@@ -14,13 +14,13 @@ bool sameBody(const std::shared_ptr<const RigidBody>& a, const std::shared_ptr<c
   return a == b || (a && b && a->spec == b->spec && a->start == b->start);
 }
 
-// Who else is told what the joint does is no part of the joint.
+// Where else it is reported what the joint does is no part of the joint.
 bool sameJoint(const JointSpec& a, JointSpec b) {
   b.shown = a.shown;
   return a == b;
 }
 
-void tellBody(const RigidBody& body, proto::PlacedMesh& placed) {
+void describeBody(const RigidBody& body, proto::PlacedMesh& placed) {
   const BodySpec& spec = body.spec;
   proto::Body& out = *placed.mutable_body();
   out.set_fixed(spec.fixed);
@@ -35,7 +35,7 @@ void tellBody(const RigidBody& body, proto::PlacedMesh& placed) {
   appendPose(*placed.mutable_start(), body.start);
 }
 
-void tellJoint(const JointSpec& joint, proto::Joint& out) {
+void describeJoint(const JointSpec& joint, proto::Joint& out) {
   const JointForces& along = joint.along;
   out.set_name(joint.name);
   out.set_kind(static_cast<proto::JointKind>(joint.kind));
@@ -76,7 +76,7 @@ void addBodies(const LayoutBodies& contents, const Snapshot& snapshot, proto::Sc
   for (std::size_t i = 0; i < contents.bodies.size(); ++i) {
     if (!contents.bodies[i]) continue;
     any = true;
-    tellBody(*contents.bodies[i], *layout.mutable_placed(static_cast<int>(i)));
+    describeBody(*contents.bodies[i], *layout.mutable_placed(static_cast<int>(i)));
   }
   if (!any) return;
   toProto(contents.mechanics.gravity_m_s2, *layout.mutable_gravity_m_s2());
@@ -84,7 +84,7 @@ void addBodies(const LayoutBodies& contents, const Snapshot& snapshot, proto::Sc
     std::uint32_t a = 0, b = 0;
     if (!snapshot.find(joint.body_a, a) || (joint.body_b != 0 && !snapshot.find(joint.body_b, b))) continue;
     proto::PlacedJoint& placed = *layout.add_joints();
-    tellJoint(joint, *placed.mutable_joint());
+    describeJoint(joint, *placed.mutable_joint());
     placed.set_body_a(a);
     if (joint.body_b != 0) placed.set_body_b(b);
   }

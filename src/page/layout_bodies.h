@@ -9,13 +9,13 @@
 
 namespace hl {
 
-/// What a layout tells of the bodies of a snapshot.
+/// What a layout describes of the bodies of a snapshot.
 struct LayoutBodies {
   std::vector<std::shared_ptr<const RigidBody>> bodies;  ///< one for each instance; null: it has no mass
   Mechanics mechanics;
 
   static LayoutBodies of(const Snapshot& snapshot);
-  /// Whether pages would be told the same.
+  /// Whether pages would be sent the same.
   bool operator==(const LayoutBodies& other) const;
 };
 

@@ -24,20 +24,20 @@ bool samePlaced(const std::vector<Placed>& a, const std::vector<Placed>& b) {
 }
 
 template <typename Spec, typename Message>
-void tellPlace(const Spec& spec, Message& out) {
+void describePlace(const Spec& spec, Message& out) {
   out.set_name(spec.name);
   for (const Vec3& point : spec.points) out.mutable_points()->Add(point.data(), point.data() + 3);
   if (spec.normal) toProto(*spec.normal, *out.mutable_normal());
 }
 
-void tellSnap(const SnapSpec& snap, proto::Snap& out) {
-  tellPlace(snap, out);
+void describeSnap(const SnapSpec& snap, proto::Snap& out) {
+  describePlace(snap, out);
   out.set_capture(snap.capture_m);
   out.set_release_n(snap.release_N);
 }
 
-void tellField(const FieldSpec& field, proto::Field& out) {
-  tellPlace(field, out);
+void describeField(const FieldSpec& field, proto::Field& out) {
+  describePlace(field, out);
   out.set_kind(static_cast<proto::FieldKind>(field.kind));
   out.set_reach(field.reach_m);
   out.set_force_n(field.force_N);
@@ -74,12 +74,12 @@ std::optional<std::uint32_t> LayoutPlaces::indexOf(const PlacedSnap& snap) const
 void addPlaces(const LayoutPlaces& contents, proto::SceneLayout& layout) {
   for (const PlacedSnap& snap : contents.snaps) {
     proto::PlacedSnap& out = *layout.add_snaps();
-    tellSnap((*contents.snap_lists[snap.instance])[snap.number], *out.mutable_snap());
+    describeSnap((*contents.snap_lists[snap.instance])[snap.number], *out.mutable_snap());
     out.set_placed(snap.instance);
   }
   for (const PlacedField& field : contents.fields) {
     proto::PlacedField& out = *layout.add_fields();
-    tellField((*contents.field_lists[field.instance])[field.number], *out.mutable_field());
+    describeField((*contents.field_lists[field.instance])[field.number], *out.mutable_field());
     out.set_placed(field.instance);
   }
 }

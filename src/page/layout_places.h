@@ -13,7 +13,7 @@
 
 namespace hl {
 
-/// What a layout tells of the snaps and fields of a snapshot: those that count.
+/// What a layout describes of the snaps and fields of a snapshot: those that count.
 struct LayoutPlaces {
   std::vector<std::shared_ptr<const SnapList>> snap_lists;  ///< one for each instance; null: it has none
   std::vector<std::shared_ptr<const FieldList>> field_lists;
@@ -21,9 +21,9 @@ struct LayoutPlaces {
   std::vector<PlacedField> fields;
 
   static LayoutPlaces of(const Snapshot& snapshot);
-  /// Whether pages would be told the same.
+  /// Whether pages would be sent the same.
   bool operator==(const LayoutPlaces& other) const;
-  /// The place in the layout of a snap of an instance; absent: it is not told.
+  /// The place in the layout of a snap of an instance; absent: it is not sent.
   std::optional<std::uint32_t> indexOf(const PlacedSnap& snap) const;
 };
 

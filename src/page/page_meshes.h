@@ -48,7 +48,7 @@ class PageMeshes {
   void keep(const std::set<std::uint32_t>& numbers);
 
  private:
-  /// What tells meshes apart, by the shape's geometry; the mesh holds the textures.
+  /// What distinguishes meshes, by the shape's geometry; the mesh holds the textures.
   using Identity = std::pair<std::uint64_t, std::vector<const Texture*>>;
   struct Mesh {
     std::shared_ptr<const Shape> shape;  // until there is a message

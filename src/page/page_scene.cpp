@@ -143,7 +143,7 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
   if (!waiting_) meshes_.keep(layout_->meshes);
 }
 
-// Meshes come before the layout that places them, and are forgotten after it. What cannot be shown is told once.
+// Meshes come before the layout that places them, and are forgotten after it. What cannot be shown is reported once.
 PageMessage PageScene::next(PageMemory& page) const {
   if (!layout_) return nullptr;
   if (page.layout != layout_->number) {

@@ -1,4 +1,4 @@
-// PageScene: what pages are told of the scene while it changes. A layout says which meshes are where; it is sent again
+// PageScene: what pages are sent of the scene while it changes. A layout says which meshes are where; it is sent again
 // only when something comes, goes or is scaled. What moves meanwhile is in each state, as a difference from the layout,
 // so that a page that misses states, or layouts, is right again with the next ones.
 #pragma once

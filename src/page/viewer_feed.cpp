@@ -122,10 +122,10 @@ void setShared(const ShareView& view, proto::State& out) {
   shared.set_own(view.counts.own_items);
   shared.set_fetching(view.counts.fetching);
   for (const PeerView& peer : view.peers) {
-    proto::SharePeer& told = *shared.add_peers();
-    told.set_name(peer.name);
-    told.set_round_trip_ms(peer.round_trip_ms);
-    told.set_playout_ms(peer.playout_ms);
+    proto::SharePeer& entry = *shared.add_peers();
+    entry.set_name(peer.name);
+    entry.set_round_trip_ms(peer.round_trip_ms);
+    entry.set_playout_ms(peer.playout_ms);
   }
   for (const proto::OtherDevice& hand : view.hands) *out.add_remote() = hand;
 }

@@ -4,7 +4,7 @@
 // finger projected onto the tangent plane, and lowered by what the pull leaves of A, at most by half a radius: an edge
 // is a radius below the proxy, and from there all ways over it are equally far. So the proxy follows the surface, and
 // friction acts as for a normal force of N + A (Derjaguin, Muller, Toporov 1975: the adhesive force adds to the load);
-// it is told what the goal does not press. A tick to this goal counts only if the proxy comes no farther from the
+// it is given what the goal does not press. A tick to this goal counts only if the proxy comes no farther from the
 // finger: adhesion never adds energy to the spring. If the tick does not count, a part of the way is tried, which is
 // right for an edge; then the proxy stays where it is while the pull is below A, and is released otherwise.
 #pragma once

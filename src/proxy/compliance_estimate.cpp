@@ -10,7 +10,7 @@ namespace {
 constexpr double kRoundUp = 1.25;
 constexpr double kMaxEstimate_m_N = 0.05;  // 20 N/m: softer than any tissue that is pressed
 constexpr std::size_t kMaxLag = 4;         // frames from a force to the end of the motion that answers it
-constexpr double kMinChange_N = 0.01;      // root of the summed squares; less tells nothing
+constexpr double kMinChange_N = 0.01;      // root of the summed squares; less gives nothing
 constexpr double kMinExplained = 0.95;     // r^2 of the secant
 constexpr double kMin_m_N = 1e-5;          // 100 kN/m: nothing
 constexpr double kDecay = 0.25;            // of an estimate that is too high, in a frame
@@ -43,8 +43,8 @@ void ComplianceEstimate::closeFrame(double period_s, double servo_m_N) {
   ticks = 0;
   const double secant = secant_m_N();
   if (secant < 0) return;
-  const double told_m_N = secant > servo_m_N ? secant : 0;
-  const double wanted = std::min(kRoundUp * told_m_N, kMaxEstimate_m_N), before = compliance_m_N;
+  const double measured_m_N = secant > servo_m_N ? secant : 0;
+  const double wanted = std::min(kRoundUp * measured_m_N, kMaxEstimate_m_N), before = compliance_m_N;
   double change = wanted > before ? wanted - before : kDecay * (wanted - before);
   if (before + change < kMin_m_N) change = -before;
   compliance_m_N = before + change;
@@ -53,20 +53,20 @@ void ComplianceEstimate::closeFrame(double period_s, double servo_m_N) {
 
 double ComplianceEstimate::secant_m_N() const {
   double best = 0, explained = kMinExplained;
-  bool told = false;
+  bool known = false;
   for (const auto* forces_N : {&means_N, &lasts_N}) {
     for (std::size_t lag = 1; lag <= kMaxLag; ++lag) {
       Secant secant;
       for (std::size_t i = lag + 1; i < kFrames; ++i)
         secant.add((*forces_N)[i - lag] - (*forces_N)[i - lag - 1], moves_m[i]);
       if (secant.force2 < kMinChange_N * kMinChange_N) continue;
-      told = true;
+      known = true;
       if (secant.both >= 0 || secant.explained() <= explained) continue;
       explained = secant.explained();
       best = -secant.both / secant.force2;
     }
   }
-  return told ? best : -1;
+  return known ? best : -1;
 }
 
 }  // namespace hl

@@ -1,4 +1,4 @@
-// Compliance estimate: how a mesh that is deformed by frames yields, where its client does not tell.
+// Compliance estimate: how a mesh that is deformed by frames yields, where its client does not say.
 //
 // Only of clients that take contact reports: they read the force that their mesh is to answer
 // (Instance::answers_force). Such a client moves its mesh by the force that it reads: x_k = x_0 - C F_k along the
@@ -46,7 +46,7 @@ struct ComplianceEstimate {
 
   /// A frame has come: the one before is complete. `servo_m_N`: 1/K, per metre of the world. RT-safe.
   void closeFrame(double period_s, double servo_m_N);
-  /// C by the frames so far; 0: the mesh does not follow the force; below 0: the force has not changed enough to tell.
+  /// C by the frames so far; 0: the mesh does not follow the force; below 0: the force has not changed enough for it.
   /// RT-safe.
   double secant_m_N() const;
 };

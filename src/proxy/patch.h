@@ -44,7 +44,7 @@ class Patch {
   bool shaded() const { return smooth_ || height_.texture; }
   /// The interpolated vertex normals, at most accuracy::kShadingLimit_rad from the true normal, and then the slope of
   /// the bump map. A triangle with a vertex normal that is missing, zero or on the other side is not shaded; where
-  /// nothing tells the outside, normals are turned to the side of the proxy.
+  /// nothing identifies the outside, normals are turned to the side of the proxy.
   ShadingNormal shadingNormal(const Vec2& moved = Vec2::Zero()) const;
 
  private:

@@ -17,7 +17,7 @@ namespace hl {
 class StartSearch {
  public:
   StartSearch() = default;
-  /// Goes on where another one was, as next() told; 0 <= `next` < kPlaces.
+  /// Goes on where another one was, as next() gave; 0 <= `next` < kPlaces.
   explicit StartSearch(int next) : next_(next) {}
   int next() const { return next_; }
 

@@ -32,7 +32,7 @@ class Surface {
   bool isTriangle() const { return triangle_; }
   /// Whether shading by vertex normals is on; of a point of a surface that is no mesh: by its normal.
   bool smooth() const { return smooth_; }
-  /// Whether vertex normals tell the outside; else the opposite of each is as good.
+  /// Whether vertex normals identify the outside; else the opposite of each is as good.
   bool hasOutside() const { return shape_.hasOutside(); }
   /// Vertex normal of a smooth triangle or point, in the object frame. `sorted`: number among the sorted vertices.
   Vec3 normal(const Primitive& triangle, std::size_t sorted) const {

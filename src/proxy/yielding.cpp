@@ -12,7 +12,7 @@ namespace hl {
 
 namespace {
 
-// How an object yields, told by its client or estimated.
+// How an object yields, given by its client or estimated.
 struct ObjectYielding {
   Compliance compliance;
   std::optional<Vec3> lift_m{};  // C F_k, where it is estimated

@@ -121,9 +121,9 @@ void BlackBoxes::write(std::uint64_t end, FaultReason reason) {
     proto::RecordingBlock last;
     last.mutable_end()->set_reason("black box");
     box.write(last);
-    tell(fmt::format("fault: {}; black box: {}", faultText(reason), box.path()));
+    report(fmt::format("fault: {}; black box: {}", faultText(reason), box.path()));
   } catch (const std::exception& error) {
-    tell(fmt::format("fault: {}; no black box: {}", faultText(reason), error.what()));
+    report(fmt::format("fault: {}; no black box: {}", faultText(reason), error.what()));
   }
 }
 
@@ -159,8 +159,8 @@ void BlackBoxes::writeWorld(RecordingWriter& box) const {
   }
 }
 
-void BlackBoxes::tell(const std::string& line) const {
-  if (settings_.tell) settings_.tell(rings_.device, line);
+void BlackBoxes::report(const std::string& line) const {
+  if (settings_.report) settings_.report(rings_.device, line);
 }
 
 }  // namespace hl

@@ -58,7 +58,7 @@ class BlackBoxes {
   void write(std::uint64_t end, FaultReason reason);
   void writeSteps(RecordingWriter& box, std::uint64_t end) const;
   void writeWorld(RecordingWriter& box) const;
-  void tell(const std::string& line) const;
+  void report(const std::string& line) const;
 
   const RecorderSettings& settings_;
   const LoopRings rings_;

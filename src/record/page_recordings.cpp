@@ -69,7 +69,7 @@ void PageRecordings::refuse(const std::string& why) {
   status_.owner = owner;
 }
 
-void PageRecordings::tell(double time_s, std::uint64_t bytes) {
+void PageRecordings::report(double time_s, std::uint64_t bytes) {
   const std::lock_guard lock(mutex_);
   if (status_.phase == Phase::kStarting) ++status_.begun;
   status_.phase = Phase::kRunning;

@@ -45,7 +45,7 @@ class PageRecordings {
   /// Whether its page has gone without a word.
   bool abandoned() const;
   void refuse(const std::string& why);
-  void tell(double time_s, std::uint64_t bytes);
+  void report(double time_s, std::uint64_t bytes);
   void keep(FilePointer file, const std::string& reason, std::int64_t now_ns);
   void drop();
 

@@ -89,7 +89,7 @@ bool consistent(const proto::ServoSteps& in) {
 
 constexpr const char* kMisfit = "the lists of a block of servo steps do not agree";
 
-// What few devices tell is written for all steps or for none.
+// What few devices report is written for all steps or for none.
 void addRare(std::span<const ServoRecord> records, proto::ServoSteps& out) {
   const auto weighs = [](const ServoRecord& record) { return !isZeroToTheBit(record.sample.weight_N); };
   if (std::any_of(records.begin(), records.end(), weighs)) {

@@ -114,7 +114,7 @@ void Recorder::drain(bool all) {
   } catch (const Error& error) {
     file_.reset();
     written_.page = 0;
-    for_pages ? settings_.pages->refuse(error.what()) : tell(fmt::format("the recording ends: {}", error.what()));
+    for_pages ? settings_.pages->refuse(error.what()) : report(fmt::format("the recording ends: {}", error.what()));
   }
   if (!file_) forgetOldScenes();
   hashing_.store(file_ || capture_.wanted_ns != 0, std::memory_order_relaxed);
@@ -126,7 +126,7 @@ void Recorder::writeFile(bool all) {
   writeSteps(all);
   scene_writer_.writePoses(monotonicNow_ns(), [this](const proto::RecordingBlock& block) { file_->write(block); });
   if (written_.page != 0)
-    tellPages();
+    reportToPages();
   else if (all)
     endRecording("stopped");
   else if (file_->bytes() > settings_.most_bytes)
@@ -171,7 +171,7 @@ void Recorder::endRecording(const std::string& reason) {
   file_->write(end);
   const auto file = std::move(file_);
   if (std::exchange(written_.page, 0) != 0) return settings_.pages->keep(file->file(), reason, monotonicNow_ns());
-  tell(fmt::format("recorded: {} ({} bytes; {})", file->path(), file->bytes(), reason));
+  report(fmt::format("recorded: {} ({} bytes; {})", file->path(), file->bytes(), reason));
 }
 
 // A recording that a page wants begins when the proxy's memory is known, and ends when the page does not want it.
@@ -222,7 +222,7 @@ void Recorder::openForPage(std::uint32_t page) {
   file_ = std::move(file);
   written_.page = page;
   writeScenes();
-  tellPages();
+  reportToPages();
 }
 
 void Recorder::endForPage() {
@@ -236,9 +236,9 @@ void Recorder::endForPage() {
   endRecording("stopped");
 }
 
-void Recorder::tellPages() {
+void Recorder::reportToPages() {
   const double time_s = seconds(monotonicNow_ns() - begin_.monotonic_ns);
-  settings_.pages->tell(time_s, file_->bytes());
+  settings_.pages->report(time_s, file_->bytes());
   if (file_->bytes() > PageRecordings::kMaxBytes)
     endRecording(fmt::format("{} MB are reached", PageRecordings::kMaxBytes / 1'000'000));
   else if (time_s > PageRecordings::kMaxTime_s)
@@ -272,8 +272,8 @@ proto::RecordingBlock Recorder::startBlock(FaultReason reason) const {
   return block;
 }
 
-void Recorder::tell(const std::string& line) const {
-  if (settings_.tell) settings_.tell(session_.label.name, line);
+void Recorder::report(const std::string& line) const {
+  if (settings_.report) settings_.report(session_.label.name, line);
 }
 
 std::string recordingOf(const std::string& file, const std::string& device) {

@@ -71,10 +71,10 @@ class Recorder final : public StepSink {
   bool captured(std::int64_t now_ns);
   void openForPage(std::uint32_t page);
   void endForPage();
-  void tellPages();
+  void reportToPages();
   void forgetOldScenes();
   proto::RecordingBlock startBlock(FaultReason reason) const;
-  void tell(const std::string& line) const;
+  void report(const std::string& line) const;
 
   const RecorderSettings settings_;
   const SessionInfo session_;

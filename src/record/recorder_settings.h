@@ -20,7 +20,7 @@ struct RecorderSettings {
   std::size_t black_boxes = 20;              ///< kept there, >= 1; the oldest go
   std::string version;                       ///< of HL, for the files
   /// Gets the name of the device and a line when a file is written or can not be; or empty.
-  std::function<void(const std::string& device, const std::string& line)> tell;
+  std::function<void(const std::string& device, const std::string& line)> report;
 };
 
 /// The file of one device of several: session.hlr becomes session-left.hlr.

@@ -24,7 +24,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the head of a block is written as it lies in memory");
 
 // The number is that of the form: it rises when fields of the recorded structures change their order or meaning. When
-// one comes or goes the lists no longer fit, and that is told too.
+// one comes or goes the lists no longer fit, and that is reported too.
 constexpr std::string_view kMagic = "HLREC2\r\n", kFirstForm = "HLREC1\r\n";
 // A block may be a mesh of tens of millions of triangles; protobuf's own limit.
 constexpr std::uint64_t kMaxBlockBytes = 0x7fffffff;

@@ -8,7 +8,7 @@ namespace hl {
 
 namespace {
 
-// Since it was sent. A clock that tells of the future counts as none.
+// Since it was sent. A clock that is ahead counts as none.
 std::int64_t ageOf_ns(const HandCommand& command, std::int64_t now_ns) {
   constexpr std::int64_t kOld_ns = 2 * kCommandLife_ns;
   const std::int64_t on_the_way_ns = std::clamp<std::int64_t>(command.age_ns, 0, kOld_ns);

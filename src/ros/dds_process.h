@@ -16,7 +16,7 @@ namespace hl {
 /// Where a program is that HL brings along, and what to do without it.
 struct DdsProgram {
   const char* name;
-  const char* absent;  ///< told where it is not
+  const char* absent;  ///< reported where it is not
 };
 
 /// Ends with this object. One thread at a time; after the start nothing but wait() and startAgain() waits.

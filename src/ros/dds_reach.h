@@ -1,4 +1,4 @@
-// DdsReach: how far what is told by DDS goes, and in which domain.
+// DdsReach: how far what is published by DDS goes, and in which domain.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ inline constexpr DdsUse kRosUse{"--ros", "pull the hand"}, kShareUse{"--share", 
 /// interface, and for peers that are no addresses or cannot be reached.
 void checkReach(const DdsReach& reach, const DdsUse& use);
 
-/// The words with which a program is told of its reach; and the reach of the first words of these, up to the first that
+/// The words with which a program is given its reach; and the reach of the first words of these, up to the first that
 /// is of none, which `word` is at then. False: they make no sense. It is not checked.
 std::vector<std::string> wordsOf(const DdsReach& reach);
 bool readReach(const std::vector<std::string>& words, std::vector<std::string>::const_iterator& word, DdsReach& reach);

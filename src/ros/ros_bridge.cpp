@@ -56,8 +56,8 @@ std::vector<std::string> rosHands(const std::string& name_space, const std::vect
 }
 
 RosBridge::RosBridge(std::unique_ptr<RosLink> link, const std::vector<TouchSession*>& hands, double rate_Hz,
-                     TellPerson tell, const std::optional<TeleopOfHand>& teleop)
-    : link_(std::move(link)), period_ns_(static_cast<std::int64_t>(1e9 / rate_Hz)), tell_(std::move(tell)) {
+                     ReportLine report, const std::optional<TeleopOfHand>& teleop)
+    : link_(std::move(link)), period_ns_(static_cast<std::int64_t>(1e9 / rate_Hz)), report_(std::move(report)) {
   for (TouchSession* const session : hands) hands_.push_back({session, CommandJudge(session->deviceInfo())});
   if (!teleop) return;
   Hand& hand = hands_.at(teleop->hand);
@@ -86,15 +86,15 @@ void RosBridge::run() {
     if (link_->ended()) startAgain();
     const std::int64_t now_ns = monotonicNow_ns();
     if (now_ns < next_ns) continue;
-    tellHands();
-    // What could not be told in time is not told later.
+    publishHands();
+    // What could not be published in time is not published later.
     next_ns = std::max(next_ns + period_ns_, now_ns);
   }
 }
 
 void RosBridge::startAgain() {
   linked_ = false;
-  tell_("hl-ros has ended: hands are no topics of ROS 2 until it is there again");
+  report_("hl-ros has ended: hands are no topics of ROS 2 until it is there again");
   while (thread_.running()) {
     // Commands are looked at all the while, as hands are let go that wait for them.
     pauses_.wait([this] {
@@ -104,7 +104,7 @@ void RosBridge::startAgain() {
     if (!thread_.running() || !link_->startAgain()) continue;
     ++starts_;
     linked_ = true;
-    return tell_("hl-ros is there again");
+    return report_("hl-ros is there again");
   }
 }
 
@@ -115,7 +115,7 @@ void RosBridge::takeCommands() {
     const bool known = command->hand < hands_.size();
     Hand* const hand = known ? &hands_[command->hand] : nullptr;
     const CommandVerdict verdict = known ? take(*hand, *command) : CommandVerdict::kMalformed;
-    if (verdicts_[static_cast<std::size_t>(verdict)]++ == 0) tellRefusal(verdict);
+    if (verdicts_[static_cast<std::size_t>(verdict)]++ == 0) reportRefusal(verdict);
   }
   for (Hand& hand : hands_) {
     if (hand.judge.takeEnd(monotonicNow_ns())) ++ends_;
@@ -158,18 +158,18 @@ void RosBridge::lead(Hand& hand, const HandMotion& motion, RosHandState& state) 
   teleop_ = TeleopView{leading.clutch.engaged(), leading.port};
 }
 
-void RosBridge::tellRefusal(CommandVerdict verdict) {
+void RosBridge::reportRefusal(CommandVerdict verdict) {
   if (verdict == CommandVerdict::kTaken) return;
-  tell_(std::string("from ROS 2: ") + kWhyRefused[static_cast<std::size_t>(verdict)] +
-        ": left out, as will be others, which are counted in /metrics and not told");
+  report_(std::string("from ROS 2: ") + kWhyRefused[static_cast<std::size_t>(verdict)] +
+          ": left out, as will be others, which are counted in /metrics and not told");
 }
 
-void RosBridge::tellHands() {
+void RosBridge::publishHands() {
   const std::int64_t to_system_ns = toSystem_ns();
   for (std::uint32_t i = 0; i < hands_.size(); ++i) {
     const std::optional<HandMotion> motion = newestMotion(hands_[i].session->moments());
-    if (!motion || motion->newest.time_ns == hands_[i].told_ns) continue;
-    hands_[i].told_ns = motion->newest.time_ns;
+    if (!motion || motion->newest.time_ns == hands_[i].published_ns) continue;
+    hands_[i].published_ns = motion->newest.time_ns;
     const bool has_gripper = hands_[i].session->deviceInfo().gripper_max_rad > 0;
     RosHandState state = stateOf(i, *motion, has_gripper, to_system_ns);
     if (hands_[i].leading) lead(hands_[i], *motion, state);

@@ -1,4 +1,4 @@
-// RosBridge: the hands of a server as topics of ROS 2, by hl-ros. One thread, "ros", tells hl-ros how the hands are, at
+// RosBridge: the hands of a server as topics of ROS 2, by hl-ros. One thread, "ros", sends hl-ros how the hands are, at
 // a fixed rate, and gives what comes for them to their servos. The servos never wait for it. When hl-ros ends by
 // itself, hands feel what they feel when commands stay away, and it is started again.
 #pragma once
@@ -57,10 +57,10 @@ std::vector<std::string> rosHands(const std::string& name_space, const std::vect
 class RosBridge {
  public:
   /// For what a person should know: a line without its end. Called by the thread of the bridge.
-  using TellPerson = std::function<void(const std::string&)>;
+  using ReportLine = std::function<void(const std::string&)>;
 
   /// `hands` by their place in the task of `link`; they outlive it.
-  RosBridge(std::unique_ptr<RosLink> link, const std::vector<TouchSession*>& hands, double rate_Hz, TellPerson tell,
+  RosBridge(std::unique_ptr<RosLink> link, const std::vector<TouchSession*>& hands, double rate_Hz, ReportLine report,
             const std::optional<TeleopOfHand>& teleop = std::nullopt);
   ~RosBridge() { stop(); }
   void start();
@@ -79,7 +79,7 @@ class RosBridge {
     TouchSession* session;
     CommandJudge judge;
     std::optional<Leading> leading{};
-    std::int64_t told_ns = 0;  ///< the time of the moment told last
+    std::int64_t published_ns = 0;  ///< the time of the moment last published
   };
   using Count = std::atomic<std::uint64_t>;
 
@@ -87,15 +87,15 @@ class RosBridge {
   void startAgain();
   void takeCommands();
   CommandVerdict take(Hand& hand, const HandCommand& command);
-  void tellHands();
+  void publishHands();
   void lead(Hand& hand, const HandMotion& motion, RosHandState& state);
   void giveInput(const Hand& hand);
-  void tellRefusal(CommandVerdict verdict);
+  void reportRefusal(CommandVerdict verdict);
 
   const std::unique_ptr<RosLink> link_;
   std::vector<Hand> hands_;
   const std::int64_t period_ns_;
-  const TellPerson tell_;
+  const ReportLine report_;
   std::array<Count, kRosInputs> received_{};
   std::array<Count, static_cast<std::size_t>(CommandVerdict::kVerdicts)> verdicts_{};
   Count states_{0}, states_lost_{0}, ends_{0}, starts_{0};

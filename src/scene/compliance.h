@@ -9,7 +9,7 @@
 
 namespace hl {
 
-/// Largest compliance, m of the world per newton, and largest component of a force, N, that a client may tell.
+/// Largest compliance, m of the world per newton, and largest component of a force, N, that a client may give.
 inline constexpr double kMaxCompliance_m_N = 1e9;
 inline constexpr double kMaxComputedForce_N = 1e9;
 

@@ -51,7 +51,7 @@ struct SceneEdit {
   std::map<std::uint32_t, std::shared_ptr<SceneItems>> objects;
   std::map<std::uint32_t, Compliance> compliances;  ///< by object; kept until the object is deleted
   std::shared_ptr<SceneItems> world;                ///< null: unchanged
-  /// The client deforms its objects by the forces that it reads: how they yield is estimated where it does not tell.
+  /// The client deforms its objects by the forces that it reads: how they yield is estimated where it does not say.
   bool answers_force = false;
 };
 

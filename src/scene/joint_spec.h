@@ -52,7 +52,7 @@ struct JointSpec {
   /// Unique among the joints of a scene, and the same from scene to scene; 0: its place in their list, from 1 on.
   std::uint64_t key = 0;
   std::uint32_t session = 0, id = 0;     ///< client session, and its number there
-  std::shared_ptr<SharedJoint> shown{};  ///< told after each step; null: nobody asks
+  std::shared_ptr<SharedJoint> shown{};  ///< published after each step; null: nobody asks
   bool operator==(const JointSpec&) const = default;
 };
 

@@ -30,7 +30,7 @@ std::size_t bytesOf(const CalledJoint& joint);
 inline constexpr std::size_t kJoint_bytes = 30'000;
 std::size_t bytesOfJoint(const JointSpec& joint);
 
-/// Of `session`. One that was in `before` between the same bodies is told of at the same place (JointSpec::shown).
+/// Of `session`. One that was in `before` between the same bodies is reported at the same place (JointSpec::shown).
 /// Throws hl::Error, one line with the joint's id, for a body that is not placed, or not clear. Allocates.
 std::vector<JointSpec> placedJoints(const std::vector<CalledJoint>& joints, std::span<const PlacedShape> placed,
                                     std::uint32_t session, const std::vector<JointSpec>& before);

@@ -60,7 +60,7 @@ struct Shape {
   PrimitiveKind kind(ElementId id) const { return source ? source->kind() : primitives.kind(id); }
   /// Whether its triangles have vertex normals, or the points of its source normals.
   bool hasNormals() const { return source || !model.normals.empty(); }
-  /// Whether normals tell the outside; else the opposite of each is as good.
+  /// Whether normals identify the outside; else the opposite of each is as good.
   bool hasOutside() const { return !source || source->hasOutside(); }
   /// The vertex normal of a triangle, or of a point of a source; requires hasNormals(). `sorted`: number among the
   /// sorted vertices.

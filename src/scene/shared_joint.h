@@ -1,4 +1,4 @@
-// Shared joint: what a joint does, told to other threads than the one that steps it.
+// Shared joint: what a joint does, published to other threads than the one that steps it.
 #pragma once
 
 #include "base/shared_numbers.h"

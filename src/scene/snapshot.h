@@ -42,7 +42,7 @@ struct Instance {
   /// Moves the instance in place of its client; null: none.
   std::shared_ptr<const PoseSource> driver{};
   std::shared_ptr<const RigidBody> body{};  ///< null: it has no mass. Its poses are the driver, unless it is fixed
-  /// How it yields between the frames of a client that deforms it; null: its client has not told.
+  /// How it yields between the frames of a client that deforms it; null: its client has not given it.
   std::shared_ptr<const ComplianceMotion> compliance{};
   bool answers_force = false;                 ///< its client deforms it by the forces that it reads
   std::uint32_t item = 0;                     ///< index of its item in the object, or in the world if `object` is 0

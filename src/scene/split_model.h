@@ -12,7 +12,7 @@ namespace hl {
 void checkParts(const Model& model);
 
 /// One for each part, in their order; the model is one that checkParts() accepts and has parts. Warnings and what is
-/// told of the reading go with the first.
+/// reported of the reading go with the first.
 std::vector<Model> splitModel(Model whole);
 
 }  // namespace hl

@@ -21,7 +21,7 @@ class BaseScene {
   // Any thread.
   /// The next one; returns its number.
   std::uint64_t replace(std::shared_ptr<const Snapshot> next);
-  /// From the next scene on the surface of a volume with this key, as told in the scene that is shown, is at another
+  /// From the next scene on the surface of a volume with this key, as given in the scene that is shown, is at another
   /// value, or its matter on the other side; of several choices the last one counts. Nothing happens if that surface
   /// has gone by then.
   void setIso(std::uint64_t key, const IsoChoice& choice);

@@ -58,7 +58,7 @@ class ClientScene {
 
   /// Calls back unless the client has gone.
   template <typename Call>
-  void tell(Call call) {
+  void callBack(Call call) {
     const std::lock_guard lock(call_mutex_);
     if (callbacks_.shown) call(callbacks_);
   }
@@ -87,7 +87,7 @@ class ClientScene {
     std::int64_t move_ns = 0;          // that what is placed takes to get there
   } pace_;
   PlacedShapes placed_;                    // what is to be shown next; null when it is as it was
-  std::deque<Ready> ready_;                // frames that are built and not yet told to be shown
+  std::deque<Ready> ready_;                // frames that are built and not yet reported as shown
   std::shared_ptr<ClientScene> replaced_;  // goes with the first frame
 };
 

@@ -23,7 +23,7 @@ class ClientSession {
   /// What the client has sent; never waits for the device's loops or for a build. After end() is no longer empty it
   /// does nothing.
   virtual void receive(proto::ClientMessage message) = 0;
-  /// A message that there is no memory to decode; the outline has only what tells which one it is: the number of a
+  /// A message that there is no memory to decode; the outline has only what identifies it: the number of a
   /// frame, the ids of uploads.
   virtual void refuse(const proto::ClientMessage& outline, const std::string& why) = 0;
   /// Against which what carries the session counts what it keeps for it. Any thread.

@@ -63,7 +63,7 @@ class PressedList {
   std::vector<Pressed> all_;
 };
 
-void tell(const Pressed& pressed, double steps, proto::PressedPoint& out) {
+void describe(const Pressed& pressed, double steps, proto::PressedPoint& out) {
   const FeltContact& first = pressed.first;
   out.set_object(first.object);
   out.set_name(first.name);
@@ -101,7 +101,7 @@ void reportContacts(const TouchSession& session, std::uint64_t& next, proto::Con
   if (steps == 0) return;
   const auto count = static_cast<double>(steps);
   toProto(sum_N / count, *out.mutable_force_n());
-  for (const Pressed& one : pressed.all()) tell(one, count, *out.add_contacts());
+  for (const Pressed& one : pressed.all()) describe(one, count, *out.add_contacts());
 }
 
 }  // namespace hl

@@ -30,7 +30,7 @@ struct DecodedFrame {
   MemoryShare memory;                 ///< of the edit's lists, beside what its objects take
 };
 
-/// Takes long for large meshes: call it on a builder's thread. `progress` is told the part 0..1 of the shapes that are
+/// Takes long for large meshes: call it on a builder's thread. `progress` is given the part 0..1 of the shapes that are
 /// built, and may throw to give up. What is made is counted against `memory` before it is, and until nobody has it any
 /// more. The parts of an upload that is used are one part afterwards. Throws hl::Error, one line that names the value,
 /// for what cannot be used, and when there is no memory for it.

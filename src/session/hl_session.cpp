@@ -287,7 +287,7 @@ void HlSession::refuse(const std::string& why, std::uint64_t frame) {
   replies_.push(std::move(reply));
 }
 
-void HlSession::tell(const proto::Event& event) {
+void HlSession::notify(const proto::Event& event) {
   proto::ServerReply reply;
   *reply.mutable_event() = event;
   replies_.push(std::move(reply));

@@ -1,4 +1,4 @@
-// HlSession: the protocol of one HL client: what may come when, what is refused, and what is told in return.
+// HlSession: the protocol of one HL client: what may come when, what is refused, and what is sent in return.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ namespace hl {
 
 class HlSession final : public ClientSession {
  public:
-  /// `leave` is called first of all that the destructor does: from then on nobody may tell() it anything.
+  /// `leave` is called first of all that the destructor does: from then on nobody may call its notify().
   HlSession(TouchWorld& world, std::uint32_t number, WakeSession wake, std::function<void(const HlSession&)> leave);
   ~HlSession() override;
 
@@ -36,19 +36,19 @@ class HlSession final : public ClientSession {
   const SessionBodies& bodies() const { return bodies_; }
   std::uint32_t device() const { return device_; }
   /// An object of this session was touched or left, or a button of its device moved. Any thread.
-  void tell(const proto::Event& event);
+  void notify(const proto::Event& event);
   /// Ends the session with this reason. Any thread.
   void end(const std::string& why) { replies_.end(why); }
 
  private:
-  /// When the client is told of the state.
+  /// When the client is sent the state.
   struct StateTimer {
     double period_s = 0;  // 0: never
     double next_s = 0;    // server's clock
   };
 
-  /// Numbers of the device's moments that are to be told next; none: the client wants none.
-  struct MomentsToTell {
+  /// Numbers of the device's moments that are to be sent next; none: the client wants none.
+  struct MomentsToSend {
     std::optional<std::uint64_t> sample, contact;
     bool reported = false;  // the contacts, before the state that comes next
   };
@@ -83,7 +83,7 @@ class HlSession final : public ClientSession {
   UploadStore uploads_;
   std::uint64_t last_frame_ = 0;
   StateTimer states_;
-  MomentsToTell next_;
+  MomentsToSend next_;
   SessionBodies bodies_;
   MessageRate frame_rate_;
 };

@@ -40,7 +40,7 @@ struct Limits : SceneLimits {
   double write_s = 20;     ///< a client that reads nothing for so long while there is something to send is ended
 };
 
-/// What Welcome tells a client.
+/// What Welcome gives a client.
 proto::Limits toProto(const Limits& limits);
 
 }  // namespace hl

@@ -16,7 +16,7 @@ std::uint64_t bytesToDecode(std::string_view wire);
 /// Memory that a message takes, with malloc()'s own; `counted` is its SpaceUsedLong().
 inline std::uint64_t bytesOfMessage(std::uint64_t counted) { return counted + counted / 4; }
 
-/// What tells which message it is, from its bytes or the first of them: the number of a frame, the ids of the first
+/// What identifies the message, from its bytes or the first of them: the number of a frame, the ids of the first
 /// uploads.
 proto::ClientMessage outlineOf(std::string_view wire);
 

@@ -1,4 +1,4 @@
-// ReplyQueue: what a session has to tell its client, until the connection takes it.
+// ReplyQueue: what a session has to send to its client, until the connection takes it.
 #pragma once
 
 #include <hl.pb.h>
@@ -20,8 +20,8 @@ class ReplyQueue {
 
   /// Where there is no memory for it, or the client reads nothing, the session ends.
   void push(proto::ServerReply reply);
-  /// How much of a frame is built. Of progress that nobody has read yet the newest is enough; what is told at once, or
-  /// what there is no memory for, is not told.
+  /// How much of a frame is built. Of progress that nobody has read yet the newest is enough. Of a frame that is built
+  /// immediately, or where there is no memory, none is sent.
   void pushProgress(std::uint64_t frame, double built);
   /// False when nothing waits.
   bool take(proto::ServerReply& reply);

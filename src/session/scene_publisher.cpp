@@ -202,13 +202,13 @@ void ScenePublisher::runBuilder() {
   }
 }
 
-// A frame that cannot be shown changes nothing; its client is told why. Its messages go with it, before anyone is
+// A frame that cannot be shown changes nothing; its client gets the reason. Its messages go with it, before anyone is
 // locked out.
 void ScenePublisher::build(ClientScene& client, Waiting waiting) {
   const std::uint64_t number = waiting.frame.number();
   const auto progress = [&](double part) {
     if (!running_) throw Error("the server is closing");
-    client.tell([&](FrameCallbacks& callbacks) { callbacks.progress(number, part); });
+    client.callBack([&](FrameCallbacks& callbacks) { callbacks.progress(number, part); });
   };
   try {
     DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, client.limits_, client.memory_, progress,
@@ -249,12 +249,12 @@ void ScenePublisher::admitBodies(ClientScene& client, const WorldParts& parts) c
 }
 
 // A client gets the answer that it waits for in the end, however short memory is meanwhile.
-void ScenePublisher::tell(FunctionRef<void()> call) {
+void ScenePublisher::answer(FunctionRef<void()> call) {
   keepTrying([this] { return running_.load(); }, call);
 }
 
 void ScenePublisher::refuse(ClientScene& client, std::uint64_t number, const char* why) {
-  tell([&] { client.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, why); }); });
+  answer([&] { client.callBack([&](FrameCallbacks& callbacks) { callbacks.refused(number, why); }); });
 }
 
 // One hierarchy, so that a frame that comes meanwhile waits for no more. Nothing is felt of it: the geometry is the
@@ -406,7 +406,7 @@ void ScenePublisher::publish() {
     throw;
   }
   show(next, std::move(scenes), parts);
-  for (const Part& part : parts) tellShown(part);
+  for (const Part& part : parts) reportShown(part);
   work_.notify_one();  // what is outdated may be rebuilt now
 }
 
@@ -433,7 +433,7 @@ void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, TouchingL
   if (base_.other()) base_.markShown();
 }
 
-void ScenePublisher::tellShown(const Part& part) {
+void ScenePublisher::reportShown(const Part& part) {
   ClientScene& client = *part.client;
   std::size_t primitives = 0;
   for (const Instance* instance : client.shown_.instances) primitives += instance->shape->elements();
@@ -447,10 +447,10 @@ void ScenePublisher::tellShown(const Part& part) {
     client.ready_.pop_front();
     lock.unlock();
     const bool last = i + 1 == part.frames;
-    tell([&] {
+    answer([&] {
       std::vector<std::string> warnings = frame.warnings;
       if (last && part.jumps > 0) warnings.push_back(jumpWarning(part.jumps));
-      client.tell([&](FrameCallbacks& callbacks) { callbacks.shown(frame.number, primitives, warnings); });
+      client.callBack([&](FrameCallbacks& callbacks) { callbacks.shown(frame.number, primitives, warnings); });
     });
   }
 }

@@ -101,8 +101,8 @@ class ScenePublisher {
   static void listShown(const Snapshot& next, std::vector<Part>& parts);
   void show(const std::shared_ptr<const Snapshot>& next, TouchingLoops::Scenes scenes,
             std::vector<Part>& parts) noexcept;
-  void tell(FunctionRef<void()> call);
-  void tellShown(const Part& part);
+  void answer(FunctionRef<void()> call);
+  void reportShown(const Part& part);
   static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);
 
   TouchingLoops loops_;

@@ -21,11 +21,11 @@ class SessionBodies {
 
   /// Whether states list them.
   void want(bool wanted) { wanted_ = wanted; }
-  /// From now on the client is told their events, of impacts those of more than `impacts_above_N_s`; absent: none.
-  void wantEvents(std::optional<double> impacts_above_N_s) { told_above_N_s_ = impacts_above_N_s.value_or(kNothing); }
-  /// Whether the client is told of this one. Any thread.
+  /// From now on the client is sent their events, of impacts those of more than `impacts_above_N_s`; absent: none.
+  void wantEvents(std::optional<double> impacts_above_N_s) { sent_above_N_s_ = impacts_above_N_s.value_or(kNothing); }
+  /// Whether the client is sent this one. Any thread.
   bool wantsEvent(const BodyEvent& event) const {
-    const double above_N_s = told_above_N_s_;
+    const double above_N_s = sent_above_N_s_;
     if (event.object.session != session_ || above_N_s < 0) return false;
     return event.kind != BodyEventKind::kImpact || event.impulse_N_s > above_N_s;
   }
@@ -47,7 +47,7 @@ class SessionBodies {
   const std::uint32_t session_;
   bool wanted_ = false;
   static constexpr double kNothing = -1;
-  std::atomic<double> told_above_N_s_{kNothing};
+  std::atomic<double> sent_above_N_s_{kNothing};
   std::uint64_t scene_ = 0;  // identity; 0: none yet
   std::vector<One> bodies_;
   struct OneJoint {

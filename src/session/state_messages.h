@@ -23,7 +23,7 @@ void setEndings(const EndingCounts& ended, Message& out) {
   out.set_unplaced_ticks(ended[Ending::kUnplaced]);
   toProto(ended, *out.mutable_ticks_ended());
 }
-/// All that a client is told, but whether it is the master.
+/// All that a client is sent, but whether it is the master.
 void toProto(const TouchSession& session, const ServoView& servo, const ProxyView& proxy, proto::ClientState& out);
 /// What the device has done since its moment `next`, which is what comes next then.
 void addMoments(const TouchSession& session, std::uint64_t& next, proto::ClientState& out);

@@ -75,22 +75,22 @@ void TouchServer::runEvents() {
   while (running_) {
     std::this_thread::sleep_for(kEventPeriod);
     for (std::uint32_t device = 0; device < world_.devices(); ++device) {
-      guarded([&] { tellTouched(device); });
-      guarded([&] { tellBodies(device); });
-      guarded([&] { tellButtons(device); });
+      guarded([&] { notifyOfTouches(device); });
+      guarded([&] { notifyOfBodies(device); });
+      guarded([&] { notifyOfButtons(device); });
     }
   }
 }
 
-void TouchServer::tellEach(const proto::Event& event, FunctionRef<bool(const HlSession&)> whom) {
+void TouchServer::notifyEach(const proto::Event& event, FunctionRef<bool(const HlSession&)> whom) {
   const std::lock_guard lock(mutex_);
   for (HlSession* session : sessions_) {
-    if (whom(*session)) guarded([&] { session->tell(event); });
+    if (whom(*session)) guarded([&] { session->notify(event); });
   }
 }
 
 // To the client whose object it is.
-void TouchServer::tellTouched(std::uint32_t device) {
+void TouchServer::notifyOfTouches(std::uint32_t device) {
   TouchEvent event;
   while (world_.device(device).popEvent(event)) {
     proto::Event out;
@@ -99,12 +99,12 @@ void TouchServer::tellTouched(std::uint32_t device) {
     out.set_object(event.object.object);
     out.set_name(event.object.name);
     toProto(event.position_W, *out.mutable_position());
-    tellEach(out, [&](const HlSession& session) { return session.number() == event.object.session; });
+    notifyEach(out, [&](const HlSession& session) { return session.number() == event.object.session; });
   }
 }
 
 // To the client whose body it is, if it listens.
-void TouchServer::tellBodies(std::uint32_t device) {
+void TouchServer::notifyOfBodies(std::uint32_t device) {
   BodyEvent event;
   while (world_.device(device).popEvent(event)) {
     proto::Event out;
@@ -114,12 +114,12 @@ void TouchServer::tellBodies(std::uint32_t device) {
     out.set_name(event.object.name);
     out.set_impulse_n_s(event.impulse_N_s);
     toProto(event.position_W, *out.mutable_position());
-    tellEach(out, [&](const HlSession& session) { return session.bodies().wantsEvent(event); });
+    notifyEach(out, [&](const HlSession& session) { return session.bodies().wantsEvent(event); });
   }
 }
 
 // To the clients of the device.
-void TouchServer::tellButtons(std::uint32_t device) {
+void TouchServer::notifyOfButtons(std::uint32_t device) {
   ServoView servo;
   ProxyView proxy;
   world_.views(device, servo, proxy);
@@ -132,7 +132,7 @@ void TouchServer::tellButtons(std::uint32_t device) {
     out.set_button(button);
     out.set_down((servo.buttons >> button & 1U) != 0);
     toProto(proxy.proxy, *out.mutable_position());
-    tellEach(out, [&](const HlSession& session) { return session.device() == device; });
+    notifyEach(out, [&](const HlSession& session) { return session.device() == device; });
   }
 }
 

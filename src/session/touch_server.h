@@ -53,7 +53,7 @@ class TouchServer final : public SessionHost {
   std::vector<TouchSession*> otherDevices();  ///< from number 1 on
   std::size_t sessions() const;
   HierarchyCounts hierarchyCounts() const { return world_.publisher().counts(); }
-  /// Of all clients' scenes, what they have sent ahead and are told, and what pages are shown of it.
+  /// Of all clients' scenes, what they have sent ahead and receive, and what pages are shown of it.
   const MemoryBudget& memory() const { return world_.memory(); }
   double time_s() const { return world_.time_s(); }
   /// For clients, as TouchSession::viewsForClients(). Any thread.
@@ -62,15 +62,15 @@ class TouchServer final : public SessionHost {
  private:
   void leave(const HlSession& session);
   void runEvents();
-  void tellEach(const proto::Event& event, FunctionRef<bool(const HlSession&)> whom);
-  void tellTouched(std::uint32_t device);
-  void tellBodies(std::uint32_t device);
-  void tellButtons(std::uint32_t device);
+  void notifyEach(const proto::Event& event, FunctionRef<bool(const HlSession&)> whom);
+  void notifyOfTouches(std::uint32_t device);
+  void notifyOfBodies(std::uint32_t device);
+  void notifyOfButtons(std::uint32_t device);
 
   TouchWorld world_;
   std::atomic<bool> running_{false};
   std::thread events_;
-  std::vector<std::uint32_t> buttons_;  // by device, as told last; of the events' thread
+  std::vector<std::uint32_t> buttons_;  // by device, as last notified; of the events' thread
 
   mutable std::mutex mutex_;  // of what follows
   std::vector<HlSession*> sessions_;

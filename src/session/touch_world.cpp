@@ -20,7 +20,7 @@ std::uint64_t bytesOfBase(const Snapshot& base) {
   return bytes;
 }
 
-// The user's name for it is told with what is wrong.
+// The user's name for it is reported with what is wrong.
 std::unique_ptr<Device> openNamed(const NamedDevice& named) {
   try {
     return openAnyDevice(named.spec);
@@ -111,8 +111,8 @@ bool TouchWorld::moveHandsAside(const Box& bounds, double most_s) {
   return aside;
 }
 
-// Where the scene before keeps a hand from its way, that scene goes first. Then nothing but a busy machine is in its way,
-// or objects whose client has gone.
+// Where the scene before keeps a hand from its way, that scene goes first. Then nothing but a busy machine is in its
+// way, or objects whose client has gone.
 bool TouchWorld::showBase(const std::shared_ptr<const Snapshot>& base) {
   constexpr double kPatience_s = 1, kPatienceInTheOpen_s = 10;
   if (!moveHandsAside(base->bounds, kPatience_s)) {

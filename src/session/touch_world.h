@@ -75,7 +75,7 @@ class TouchWorld {
   /// Null when there are none of this name.
   std::shared_ptr<ScenePublisher::ClientScene> takeKept(const std::string& client_name);
 
-  /// Hands of other servers of a shared world, in the place of those before: all clients are told of them.
+  /// Hands of other servers of a shared world, in the place of those before: all clients are sent them.
   void setRemoteHands(std::vector<proto::OtherDevice> hands);
 
   void views(std::uint32_t device, ServoView& servo, ProxyView& proxy);

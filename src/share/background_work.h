@@ -25,7 +25,7 @@ class BackgroundWork {
   BackgroundWork(const BackgroundWork&) = delete;
   BackgroundWork& operator=(const BackgroundWork&) = delete;
 
-  /// Work that throws is told as any failure of a thread, and has no finish.
+  /// Work that throws is reported as any failure of a thread, and has no finish.
   void post(Work work);
   /// All that is done.
   void finish();

@@ -52,7 +52,7 @@ class Contents {
   /// From now on it is fetched, from the first of these servers that has it. False: there is no room for it.
   bool want(const ContentName& name, const std::vector<ServerId>& from, std::int64_t now_ns);
   /// All but those of these names go, and are not fetched any more. What was kept and is held elsewhere too stays: an
-  /// object that is written is told of a moment later.
+  /// object that is written is published a moment later.
   void keepOnly(const std::function<bool(const std::string& sha256)>& wanted);
 
   void hear(const proto::ShareRequest& request);

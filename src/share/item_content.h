@@ -1,4 +1,4 @@
-// Item content: what an object is like, between an instance of a scene and what servers of a shared world tell of it.
+// Item content: what an object is like, between an instance of a scene and what servers of a shared world send of it.
 // Where it is, and how fast, is not a part of it. What comes back is touched bit for bit as it was.
 #pragma once
 

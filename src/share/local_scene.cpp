@@ -10,7 +10,7 @@ namespace hl {
 
 namespace {
 
-// Whether others are told of both in the same words.
+// Whether what is published of both is the same.
 bool isSameContent(const Instance& a, const Instance& b) {
   const auto same = [](const auto& x, const auto& y) { return x == y || (x && y && *x == *y); };
   const bool bodies = a.body && b.body ? a.body->spec == b.body->spec : !a.body && !b.body;
@@ -43,8 +43,8 @@ ItemId ItemIds::of(const Instance& instance) const {
 }
 
 LocalScene::LocalScene(const ShareSelf& self, std::uint32_t others, BackgroundWork& work, Contents& contents,
-                       TellPerson tell)
-    : ids_(self), others_(others), work_(work), contents_(contents), tell_(std::move(tell)) {}
+                       ReportLine report)
+    : ids_(self), others_(others), work_(work), contents_(contents), report_(std::move(report)) {}
 
 void LocalScene::look(const Snapshot& scene, std::int64_t now_ns) {
   ++looks_;
@@ -64,8 +64,8 @@ LocalScene::Row* LocalScene::rowOf(ItemId id, const Instance& instance) {
   const auto found = rows_.find(id);
   if (found != rows_.end()) return &found->second;
   if (rows_.size() < SharedWorld::kMaxItems) return &rows_.emplace(id, Row{instance}).first->second;
-  if (!std::exchange(told_many_, true))
-    tell_("others are told of " + std::to_string(SharedWorld::kMaxItems) + " objects of this server, and it has more");
+  if (!std::exchange(reported_many_, true))
+    report_("others are told of " + std::to_string(rows_.size()) + " objects of this server, and it has more");
   return nullptr;
 }
 
@@ -111,7 +111,7 @@ void LocalScene::refuse(ItemId id, const std::string& why) {
   --writing_;
   const auto row = rows_.find(id);
   if (row == rows_.end()) return;
-  tell_("an object is not shared: " + why);
+  report_("an object is not shared: " + why);
   row->second.written = Written::kRefused;
 }
 

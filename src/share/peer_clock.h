@@ -1,6 +1,6 @@
 // PeerClock: how far the clock of another server is ahead of this one's, and how long a packet is under way. From four
 // stamps, as NTP has it (RFC 5905, section 8): a beat of ours sent at t1 (our clock), heard there at t2 (their clock),
-// and a beat of theirs that tells so, sent at t3 (theirs), heard here at t4 (ours):
+// and a beat of theirs that says so, sent at t3 (theirs), heard here at t4 (ours):
 //   offset = ((t2 - t1) + (t3 - t4)) / 2,   round trip = (t4 - t1) - (t3 - t2)
 // The offset is wrong by half of what one way takes longer than the other. Of the last pairs that of the shortest round
 // trip counts, as it was held up least.

@@ -51,11 +51,11 @@ void Peers::hear(const proto::ShareHand& hand, std::int64_t now_ns) {
   if (hand.time_ns() >= kept.time_ns()) kept = hand;
 }
 
-void Peers::addTransit(ServerId from, std::int64_t told_there_ns, std::int64_t now_ns) {
+void Peers::addTransit(ServerId from, std::int64_t sent_there_ns, std::int64_t now_ns) {
   const auto peer = peers_.find(from);
   if (peer == peers_.end()) return;
   const std::optional<std::int64_t> offset_ns = peer->second.clock.offset_ns();
-  if (offset_ns) peer->second.delay.add(now_ns + *offset_ns - told_there_ns);
+  if (offset_ns) peer->second.delay.add(now_ns + *offset_ns - sent_there_ns);
 }
 
 proto::ShareBeat Peers::beat(std::int64_t now_ns) const {

@@ -32,7 +32,7 @@ struct Peer {
   PeerClock clock;
   PlayoutDelay delay;
   SteadyLag lag;
-  std::map<std::uint32_t, proto::ShareHand> hands;  ///< by number, as told last
+  std::map<std::uint32_t, proto::ShareHand> hands;  ///< by number, as last received
   proto::ShareEcho echo;                            ///< of its last beat
 };
 
@@ -50,10 +50,10 @@ class Peers {
   bool hear(ServerId from, std::int64_t now_ns);
   void hear(const proto::ShareBeat& beat, std::int64_t now_ns);
   void hear(const proto::ShareHand& hand, std::int64_t now_ns);
-  /// A packet of the stream was told at this time of its clock.
-  void addTransit(ServerId from, std::int64_t told_there_ns, std::int64_t now_ns);
+  /// A packet of the stream was sent at this time of its clock.
+  void addTransit(ServerId from, std::int64_t sent_there_ns, std::int64_t now_ns);
 
-  /// What this server tells ten times a second.
+  /// What this server publishes ten times a second.
   proto::ShareBeat beat(std::int64_t now_ns) const;
 
   bool isThere(ServerId id, std::int64_t now_ns) const;

@@ -1,4 +1,4 @@
-// Playout: when what another server has told is shown. A pose comes with the time at which it was so; it is shown at a
+// Playout: when what another server has sent is shown. A pose comes with the time at which it was so; it is shown at a
 // fixed delay after that time, so that what came evenly moves evenly, however unevenly the packets came. The delay is
 // as long as all but one in a hundred packets are under way.
 #pragma once
@@ -39,7 +39,7 @@ class PlayoutDelay {
   std::int64_t delay_ns_ = 0;
 };
 
-/// How far what a server tells is behind, as it is shown: it follows what clocks and delays ask for slowly, so that
+/// How far what a server publishes is behind, as it is shown: it follows what clocks and delays ask for slowly, so that
 /// what moves evenly goes on evenly. Of one server. One thread.
 class SteadyLag {
  public:
@@ -57,7 +57,7 @@ class SteadyLag {
   std::int64_t last_ns_ = 0;
 };
 
-/// Of one object: where it was, as its owner has told. One thread.
+/// Of one object: where it was, as its owner has published. One thread.
 class Track {
  public:
   /// It is on its way; one that is older than the newest is put in order, one of the same time is left out.
@@ -70,7 +70,7 @@ class Track {
   /// At this time of the owner's clock: between two poses on a screw; before the first one and after the last one
   /// there. Exactly the last one at its time and later.
   Pose at(std::int64_t time_ns) const;
-  /// As it was told last; a track with nothing: at rest at the origin.
+  /// As it was last received; a track with nothing: at rest at the origin.
   ItemMotion newest() const { return points_.empty() ? ItemMotion{} : points_.back().motion; }
   /// Nothing that is older than this is asked for any more.
   void forgetBefore(std::int64_t time_ns);

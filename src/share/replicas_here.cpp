@@ -21,13 +21,13 @@ bool isSame(const PlacedShape& a, const PlacedShape& b) {
 }  // namespace
 
 ReplicasHere::ReplicasHere(PlacedClient& client, bool bodies, BackgroundWork& work, const Contents& contents,
-                           FitHands fit, TellPerson tell)
+                           FitHands fit, ReportLine report)
     : client_(client),
       bodies_(bodies),
       work_(work),
       contents_(contents),
       fit_(std::move(fit)),
-      tell_(std::move(tell)),
+      report_(std::move(report)),
       reader_(std::make_shared<ItemReader>(client.memory())) {}
 
 void ReplicasHere::look(const std::vector<Replica>& replicas, bool jumped, std::int64_t now_ns) {
@@ -77,7 +77,7 @@ void ReplicasHere::readNew(Row& row) {
         if (found != rows_.end() && found->second.asked == content) found->second.instance = read;
       };
     } catch (const std::exception& error) {
-      return [this, why = std::string(error.what())] { tell_("an object of another server is left out: " + why); };
+      return [this, why = std::string(error.what())] { report_("an object of another server is left out: " + why); };
     }
   });
 }
@@ -124,7 +124,7 @@ void ReplicasHere::place(const PlacedShapes& placed, std::int64_t move_ns) {
     client_.place(placed, move_ns);
     return refused_.clear();
   } catch (const Error& error) {
-    if (refused_ != error.what()) tell_(std::string("bodies that were taken over rest: ") + error.what());
+    if (refused_ != error.what()) report_(std::string("bodies that were taken over rest: ") + error.what());
     refused_ = error.what();
   }
   auto resting = std::make_shared<PlacedList>(*placed);

@@ -21,7 +21,7 @@ namespace hl {
 /// One thread.
 class ReplicasHere {
  public:
-  using TellPerson = std::function<void(const std::string&)>;
+  using ReportLine = std::function<void(const std::string&)>;
   using FitHands = std::function<void(const Box& bounds)>;
   /// How long a replica takes to its next place: to the next look; to one where it was not before: as long as the force
   /// fades.
@@ -30,7 +30,7 @@ class ReplicasHere {
   /// `bodies`: this server moves rigid bodies, so those that it has taken over go on. All outlive it.
   /// `fit`: fits hands to the bounds of the first that are placed; empty: they stay as they are.
   ReplicasHere(PlacedClient& client, bool bodies, BackgroundWork& work, const Contents& contents, FitHands fit,
-               TellPerson tell);
+               ReportLine report);
 
   /// As they are now; `jumped`: one has gone elsewhere at once. Those of which a part is not here yet are placed later;
   /// where hands are to be fitted, all of them wait for that, kPatience_ns at most.
@@ -68,7 +68,7 @@ class ReplicasHere {
   BackgroundWork& work_;
   const Contents& contents_;
   FitHands fit_;  // empty: done, or not wanted
-  const TellPerson tell_;
+  const ReportLine report_;
   const std::shared_ptr<ItemReader> reader_;  // of the background work
   std::map<ItemId, Row> rows_;
   std::map<std::uint32_t, ItemId> ids_;  // by number
@@ -76,7 +76,7 @@ class ReplicasHere {
   std::uint32_t last_number_ = 0;
   std::uint64_t looks_ = 0;
   std::int64_t first_ns_ = 0;  // when the first one was here
-  std::string refused_;        // why the last list was, told once
+  std::string refused_;        // why the last list was, reported once
 };
 
 }  // namespace hl

@@ -20,26 +20,26 @@ constexpr double kMoveHands_s = 0.3;
 // After that what is placed is shown.
 constexpr std::int64_t kFreeHands_ns = 500'000'000;
 
-// The first lines about objects: a server may tell of broken ones for ever.
-ShareBridge::TellPerson someOf(ShareBridge::TellPerson tell) {
-  return [tell = std::move(tell), left = 20](const std::string& line) mutable {
+// The first lines about objects: a server may publish broken ones for ever.
+ShareBridge::ReportLine someOf(ShareBridge::ReportLine report) {
+  return [report = std::move(report), left = 20](const std::string& line) mutable {
     if (left == 0) return;
     --left;
-    tell(left > 0 ? line : line + " (no more of these are told)");
+    report(left > 0 ? line : line + " (no more of these are told)");
   };
 }
 
 }  // namespace
 
 ShareBridge::ShareBridge(std::unique_ptr<ShareLink> link, const std::string& world, const ShareSelf& self,
-                         TouchServer& server, TellPerson tell)
+                         TouchServer& server, ReportLine report)
     : link_(std::move(link)),
       server_(server),
-      tell_(std::move(tell)),
+      report_(std::move(report)),
       client_(server.placeClient()),
       world_(self, monotonicNow_ns(), [this](const SharePacket& packet) { return link_->send(packet); }),
-      local_(self, client_->session(), work_, world_.contents(), someOf(tell_)),
-      replicas_(*client_, server.devices() <= kMaxHands, work_, world_.contents(), fitOfHands(), someOf(tell_)),
+      local_(self, client_->session(), work_, world_.contents(), someOf(report_)),
+      replicas_(*client_, server.devices() <= kMaxHands, work_, world_.contents(), fitOfHands(), someOf(report_)),
       pushes_(client_->session()),
       actions_(server.device(), local_, replicas_),
       view_{world, self.name, {}} {}
@@ -100,7 +100,7 @@ void ShareBridge::startAgain(StartPauses& pauses, std::int64_t deaf_ns) {
     pauses.wait([this] { return thread_.running().load(); });
     if (!thread_.running() || !link_->startAgain()) continue;
     guarded([&] { world_.linkAgain(deaf_ns, monotonicNow_ns()); });
-    guarded([&] { tell_("hl-share is there again"); });
+    guarded([&] { report_("hl-share is there again"); });
     const std::lock_guard lock(view_mutex_);
     view_.ended.clear();
     ++view_.starts;
@@ -117,29 +117,29 @@ void ShareBridge::hearAll(std::int64_t now_ns) {
 }
 
 void ShareBridge::look(std::int64_t now_ns) {
-  tellScene(now_ns);
-  tellHands(now_ns);
+  publishScene(now_ns);
+  publishHands(now_ns);
   actOnBodies();
-  tellPeers(now_ns);
+  reportPeers(now_ns);
   writeView(now_ns);
 }
 
-void ShareBridge::tellScene(std::int64_t now_ns) {
+void ShareBridge::publishScene(std::int64_t now_ns) {
   const std::shared_ptr<const Snapshot> scene = server_.device().snapshot();
   local_.look(*scene, now_ns);
   LocalItems items = local_.items();
   replicas_.addOwn(*scene, items);
-  world_.tell(items, local_.complete(), now_ns);
+  world_.publish(items, local_.complete(), now_ns);
 }
 
-void ShareBridge::tellHands(std::int64_t now_ns) {
+void ShareBridge::publishHands(std::int64_t now_ns) {
   for (std::uint32_t number = 0; number < server_.devices(); ++number) {
     ServoView servo;
     ProxyView proxy;
     server_.views(number, servo, proxy);
     proto::OtherDevice hand;
     toProto(server_.device(number), servo, proxy, hand);
-    world_.tellHand(number, hand, now_ns);
+    world_.publishHand(number, hand, now_ns);
   }
   for (const ItemPush& push : pushes_.take(server_, replicas_)) world_.press(push);
 }
@@ -161,26 +161,26 @@ void ShareBridge::showOthers(std::int64_t now_ns) {
   }
 }
 
-void ShareBridge::tellPeers(std::int64_t now_ns) {
+void ShareBridge::reportPeers(std::int64_t now_ns) {
   std::map<ServerId, std::string> there;
   for (const ServerId id : world_.peers().there(now_ns)) {
     const Peer& peer = world_.peers().all().at(id);
     if (!peer.name.empty()) there[id] = peer.name;
   }
   for (const auto& [id, name] : there) {
-    if (!told_peers_.contains(id)) tell_("server " + name + " is in the world");
+    if (!reported_peers_.contains(id)) report_("server " + name + " is in the world");
   }
-  for (const auto& [id, name] : told_peers_) {
+  for (const auto& [id, name] : reported_peers_) {
     if (!there.contains(id))
-      tell_("server " + name + " is lost: what it had stays where it is, until others take it over");
+      report_("server " + name + " is lost: what it had stays where it is, until others take it over");
   }
-  told_peers_ = std::move(there);
+  reported_peers_ = std::move(there);
 }
 
 void ShareBridge::writeView(std::int64_t now_ns) {
   ShareView view{view_.world, view_.name, {}, view_.starts, world_.counts(now_ns)};
   std::multimap<std::string, const Peer*> by_name;
-  for (const auto& [id, name] : told_peers_) by_name.emplace(name, &world_.peers().all().at(id));
+  for (const auto& [id, name] : reported_peers_) by_name.emplace(name, &world_.peers().all().at(id));
   for (const auto& [name, peer] : by_name) {
     view.peers.push_back({name, 1e-6 * static_cast<double>(peer->clock.roundTrip_ns()),
                           1e-6 * static_cast<double>(peer->delay.delay_ns())});
@@ -191,13 +191,13 @@ void ShareBridge::writeView(std::int64_t now_ns) {
   }
   server_.setRemoteHands(view.hands);
   if (view.counts.left_out > 0 && view_.counts.left_out == 0)
-    tell_("objects of other servers are left out: there are more than " + std::to_string(SharedWorld::kMaxRecords));
+    report_("objects of other servers are left out: there are more than " + std::to_string(SharedWorld::kMaxRecords));
   const std::lock_guard lock(view_mutex_);
   view_ = std::move(view);
 }
 
 void ShareBridge::endFor(const std::string& why) {
-  guarded([&] { tell_(why); });
+  guarded([&] { report_(why); });
   server_.setRemoteHands({});
   const std::lock_guard lock(view_mutex_);
   view_.ended = why;

@@ -1,5 +1,5 @@
 // ShareBridge: a server in a world that it shares with others. One thread, "share", looks at the server's scene and
-// hands 120 times a second, tells the others of them, and places what the others have in the scene. The servos never
+// hands 120 times a second, publishes them, and places what the others have in the scene. The servos never
 // wait for it. When hl-share ends by itself it is started again.
 #pragma once
 
@@ -28,14 +28,14 @@ namespace hl {
 class ShareBridge {
  public:
   /// For what a person should know: a line without its end. Called by the thread of the bridge.
-  using TellPerson = std::function<void(const std::string&)>;
+  using ReportLine = std::function<void(const std::string&)>;
   /// From one look at the server's own scene to the next; a pose that a line loses is soon followed by another one.
   /// What others have is placed as often.
   static constexpr std::int64_t kLook_ns = 8'333'333;
 
   /// `server` outlives it.
   ShareBridge(std::unique_ptr<ShareLink> link, const std::string& world, const ShareSelf& self, TouchServer& server,
-              TellPerson tell);
+              ReportLine report);
   ~ShareBridge() { stop(); }
   /// After the server.
   void start();
@@ -49,17 +49,17 @@ class ShareBridge {
   void startAgain(StartPauses& pauses, std::int64_t deaf_ns);
   void hearAll(std::int64_t now_ns);
   void look(std::int64_t now_ns);
-  void tellScene(std::int64_t now_ns);
-  void tellHands(std::int64_t now_ns);
+  void publishScene(std::int64_t now_ns);
+  void publishHands(std::int64_t now_ns);
   void actOnBodies();
   void showOthers(std::int64_t now_ns);
-  void tellPeers(std::int64_t now_ns);
+  void reportPeers(std::int64_t now_ns);
   void writeView(std::int64_t now_ns);
   void endFor(const std::string& why);
 
   const std::unique_ptr<ShareLink> link_;
   TouchServer& server_;
-  const TellPerson tell_;
+  const ReportLine report_;
   std::unique_ptr<PlacedClient> client_;
   SharedWorld world_;
   LocalScene local_;
@@ -68,7 +68,7 @@ class ShareBridge {
   BodyActions actions_;
   std::optional<std::int64_t> free_hands_ns_;  // when those that are above what is placed are let go
   BackgroundWork work_{"share-items"};         // after what it works for
-  std::map<ServerId, std::string> told_peers_;
+  std::map<ServerId, std::string> reported_peers_;
   mutable std::mutex view_mutex_;
   ShareView view_;
   LoopThread thread_;

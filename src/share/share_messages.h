@@ -19,7 +19,7 @@ std::optional<ItemMotion> motionOf(const proto::ShareMotion& in);
 void toProto(const ContentName& name, proto::ShareName& out);
 ContentName nameOf(const proto::ShareName& in);
 
-/// Whether `a` counts where both are told of one object: by epoch, owner and change, in this order.
+/// Whether `a` counts where both are received of one object: by epoch, owner and change, in this order.
 bool isNewer(const proto::ShareItem& a, const proto::ShareItem& b);
 /// Of an object's look: with the rest of its item it fits in a packet.
 inline constexpr std::size_t kMaxLook_bytes = 40'000;

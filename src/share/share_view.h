@@ -16,7 +16,7 @@ namespace hl {
 struct PeerView {
   std::string name;
   double round_trip_ms = 0;
-  double playout_ms = 0;  ///< how long after it was so what it tells is shown
+  double playout_ms = 0;  ///< how long after it was so what it publishes is shown
 };
 
 struct ShareView {

@@ -14,7 +14,7 @@ namespace {
 
 // An object that has not moved for so many looks rests: encoders and solvers pause for a moment.
 constexpr int kStillLooks = 6;
-// What moves is told so often for those who join, and for those who have lost many packets.
+// What moves is sent so often for those who join, and for those who have lost many packets.
 constexpr std::int64_t kKeyItem_ns = 1'000'000'000;
 // What was defined by this server before it was started anew ends, unless it has been defined again by then.
 constexpr std::int64_t kSettled_ns = 2'000'000'000;
@@ -76,7 +76,7 @@ void SharedWorld::hearItem(const proto::ShareItem& item, std::int64_t now_ns) {
   Record& record = records_[item.id()];
   const bool known = record.item.id() != 0;
   const bool newer = isNewer(item, record.item);
-  if (known && record.item.owner() != item.owner()) tellWinner(newer ? item : record.item, newer ? record.item : item);
+  if (known && record.item.owner() != item.owner()) sendWinner(newer ? item : record.item, newer ? record.item : item);
   if (!newer) return;
   if (known && record.item.owner() != item.owner()) {
     counts_.lost_claims += isOwn(record) && record.item.epoch() == item.epoch() ? 1 : 0;
@@ -93,8 +93,8 @@ void SharedWorld::hearItem(const proto::ShareItem& item, std::int64_t now_ns) {
 }
 
 // Two servers say that they own it. That of the older item may know nothing of the other one, whose server may be lost:
-// it is told, so that it can claim the object anew.
-void SharedWorld::tellWinner(const proto::ShareItem& winner, const proto::ShareItem& older) {
+// it is sent the newer one, so that it can claim the object anew.
+void SharedWorld::sendWinner(const proto::ShareItem& winner, const proto::ShareItem& older) {
   if (older.owner() == self_.id) return;
   proto::ShareMessage message;
   *message.mutable_item() = winner;
@@ -115,7 +115,7 @@ void SharedWorld::hearPoses(const proto::SharePoses& poses, std::int64_t now_ns)
     Record& record = found->second;
     const std::optional<ItemMotion> motion = motionOf(item.motion());
     if (!motion || record.item.owner() != poses.from() || record.item.epoch() != item.epoch()) continue;
-    // What comes late, after the item that tells where it rests, says nothing any more.
+    // What comes late, after the item that says where it rests, says nothing any more.
     const bool late = !record.item.moving() && poses.time_ns() <= record.item.time_ns();
     if (!late) record.track.add(poses.time_ns(), *motion);
   }
@@ -144,11 +144,11 @@ void SharedWorld::own(Record& record, std::uint64_t epoch, const ItemMotion& mot
   record.item.set_owner(self_.id);
   record.item.set_gone(false);
   record.track.clear();
-  record.told = {motion, now_ns, now_ns, 0, true};
+  record.sent = {motion, now_ns, now_ns, 0, true};
   setMotion(record, motion, now_ns, false);
 }
 
-// Of an object of its own that others are to be told of.
+// Of an object of its own that is to be published to others.
 void SharedWorld::setMotion(Record& record, const ItemMotion& motion, std::int64_t time_ns, bool moving) {
   record.item.clear_motion();
   toProto(motion, *record.item.mutable_motion());
@@ -159,10 +159,10 @@ void SharedWorld::setMotion(Record& record, const ItemMotion& motion, std::int64
 
 void SharedWorld::change(Record& record) {
   record.item.set_change(record.item.change() + 1);
-  record.told.dirty = true;
+  record.sent.dirty = true;
 }
 
-// An object of this server's own, whoever has told of it meanwhile.
+// An object of this server's own, whoever has published it meanwhile.
 void SharedWorld::define(ItemId id, const LocalItem& local, std::int64_t now_ns) {
   Record& record = records_[id];
   const bool is_new = record.item.id() == 0 || record.item.gone();
@@ -191,7 +191,7 @@ void SharedWorld::define(ItemId id, const LocalItem& local, std::int64_t now_ns)
   record.item.set_definer_name(self_.name);
 }
 
-void SharedWorld::tell(const LocalItems& local, bool complete, std::int64_t now_ns) {
+void SharedWorld::publish(const LocalItems& local, bool complete, std::int64_t now_ns) {
   for (const auto& [id, item] : local) {
     if (item.content) define(id, item, now_ns);
     const auto record = records_.find(id);
@@ -201,22 +201,22 @@ void SharedWorld::tell(const LocalItems& local, bool complete, std::int64_t now_
   streamMoving(now_ns);
 }
 
-// What is told of it: that it begins to move, where it is once a second, and where it has come to rest.
+// What is sent of it: that it begins to move, where it is once a second, and where it has come to rest.
 void SharedWorld::look(Record& record, const ItemMotion& motion, std::int64_t now_ns) {
-  Told& told = record.told;
-  const bool moved = !(motion.pose == told.motion.pose);
-  told.still = moved ? 0 : told.still + 1;
+  Sent& sent = record.sent;
+  const bool moved = !(motion.pose == sent.motion.pose);
+  sent.still = moved ? 0 : sent.still + 1;
   if (moved && !record.item.moving()) {
-    setMotion(record, told.motion, told.time_ns, true);  // until the last look it was there
-    told.item_ns = now_ns;
+    setMotion(record, sent.motion, sent.time_ns, true);  // until the last look it was there
+    sent.item_ns = now_ns;
   }
-  told.motion = motion;
-  told.time_ns = now_ns;
-  const bool rests = told.still >= kStillLooks;
-  if (!record.item.moving() || (!rests && now_ns - told.item_ns < kKeyItem_ns)) return;
-  if (rests) told.motion.velocity_m_s = told.motion.spin_rad_s = Vec3::Zero();
-  setMotion(record, told.motion, now_ns, !rests);
-  told.item_ns = now_ns;
+  sent.motion = motion;
+  sent.time_ns = now_ns;
+  const bool rests = sent.still >= kStillLooks;
+  if (!record.item.moving() || (!rests && now_ns - sent.item_ns < kKeyItem_ns)) return;
+  if (rests) sent.motion.velocity_m_s = sent.motion.spin_rad_s = Vec3::Zero();
+  setMotion(record, sent.motion, now_ns, !rests);
+  sent.item_ns = now_ns;
 }
 
 // What this server has defined and does not any more; and what it had defined before it was started anew.
@@ -252,13 +252,13 @@ void SharedWorld::streamMoving(std::int64_t now_ns) {
     proto::ItemPose& pose = *poses.add_items();
     pose.set_id(id);
     pose.set_epoch(record.item.epoch());
-    toProto(record.told.motion, *pose.mutable_motion());
+    toProto(record.sent.motion, *pose.mutable_motion());
     if (poses.items_size() >= kPosesInPacket) flush();
   }
   flush();
 }
 
-void SharedWorld::tellHand(std::uint32_t number, const proto::OtherDevice& hand, std::int64_t now_ns) {
+void SharedWorld::publishHand(std::uint32_t number, const proto::OtherDevice& hand, std::int64_t now_ns) {
   proto::ShareMessage message;
   message.mutable_hand()->set_from(self_.id);
   message.mutable_hand()->set_time_ns(now_ns);
@@ -313,7 +313,7 @@ void SharedWorld::forget(std::int64_t now_ns) {
 void SharedWorld::forgetDeleted(std::int64_t before_ns) {
   std::erase_if(records_, [&](const auto& entry) {
     const Record& record = entry.second;
-    return record.item.gone() && !record.told.dirty && std::max(record.heard_ns, record.told.time_ns) < before_ns;
+    return record.item.gone() && !record.sent.dirty && std::max(record.heard_ns, record.sent.time_ns) < before_ns;
   });
 }
 
@@ -328,16 +328,16 @@ bool SharedWorld::hasRoom() {
 
 void SharedWorld::linkAgain(std::int64_t deaf_ns, std::int64_t now_ns) {
   peers_.hearAgain(deaf_ns, now_ns);
-  for (auto& [_, record] : records_) record.told.dirty |= isOwn(record);
+  for (auto& [_, record] : records_) record.sent.dirty |= isOwn(record);
 }
 
 void SharedWorld::sendItems() {
   for (auto& [id, record] : records_) {
-    if (!isOwn(record) || !record.told.dirty) continue;
+    if (!isOwn(record) || !record.sent.dirty) continue;
     proto::ShareMessage message;
     *message.mutable_item() = record.item;
     if (!sendTo(Lane::kItems, id, message)) return;
-    record.told.dirty = false;
+    record.sent.dirty = false;
   }
 }
 
@@ -383,7 +383,7 @@ std::vector<Replica> SharedWorld::replicas(std::int64_t now_ns) const {
   std::vector<Replica> replicas;
   for (const auto& [id, record] : records_) {
     if (record.item.gone() || record.item.definer() == self_.id) continue;
-    Replica replica{id, record.item.owner(), record.content, record.told.motion.pose, isOwn(record), record.begin};
+    Replica replica{id, record.item.owner(), record.content, record.sent.motion.pose, isOwn(record), record.begin};
     if (!replica.own) {
       const auto shown_ns = peers_.shownTimeThere_ns(record.item.owner(), now_ns);
       replica.pose = shown_ns ? record.track.at(*shown_ns) : record.track.newest().pose;

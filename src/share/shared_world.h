@@ -2,8 +2,8 @@
 // what becomes of it when its owner is lost. A state machine: packets and times go in, packets and replicas come out.
 // It knows no sockets, threads or clocks, so that tests run it in a time and a network of their own.
 //
-// Each object has one owner at a time, which alone tells where it is: the server that defines it while that is there,
-// and after that whoever takes it over. A change of owner is an item of a higher epoch; of two that are told the
+// Each object has one owner at a time, which alone sends where it is: the server that defines it while that is there,
+// and after that whoever takes it over. A change of owner is an item of a higher epoch; of two that are sent the
 // greater (epoch, owner, change) counts everywhere alike.
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace hl {
 
-/// An object that this server tells of, as it is now.
+/// An object that this server publishes, as it is now.
 struct LocalItem {
   /// Of one that this server defines; its large parts are among the contents. Null: it has taken the object over.
   std::shared_ptr<const proto::ShareContent> content;
@@ -67,7 +67,7 @@ struct ShareCounts {
   std::uint64_t pushes_sent = 0, pushes_taken = 0;
   std::uint64_t fetched_bytes = 0;
   double playout_ms = 0, round_trip_ms = 0;  ///< the longest of all peers, now
-  double join_s = 0;                         ///< from the start until all that was told first was here; 0: not yet
+  double join_s = 0;                         ///< from the start until all that was sent first was here; 0: not yet
 };
 
 /// One thread.
@@ -75,7 +75,7 @@ class SharedWorld {
  public:
   /// False: the link takes none now.
   using Send = std::function<bool(const SharePacket& packet)>;
-  /// That one server tells of.
+  /// That one server publishes.
   static constexpr std::size_t kMaxItems = 10'000;
   /// Of all servers together, those that were deleted of late among them: all of one may be replaced at once.
   static constexpr std::size_t kMaxRecords = 2 * kMaxItems;
@@ -86,15 +86,15 @@ class SharedWorld {
   const Peers& peers() const { return peers_; }
 
   void hear(const SharePacket& packet, std::int64_t now_ns);
-  /// The link was away since `deaf_ns` and knows nothing of what was told: all is told again, and who was there then is
+  /// The link was away since `deaf_ns` and knows nothing of what was sent: all is sent again, and who was there then is
   /// not lost yet.
   void linkAgain(std::int64_t deaf_ns, std::int64_t now_ns);
   /// The objects of this server as they are now, 120 times a second; `complete`: no other one is still being prepared.
-  void tell(const LocalItems& local, bool complete, std::int64_t now_ns);
-  void tellHand(std::uint32_t number, const proto::OtherDevice& hand, std::int64_t now_ns);
+  void publish(const LocalItems& local, bool complete, std::int64_t now_ns);
+  void publishHand(std::uint32_t number, const proto::OtherDevice& hand, std::int64_t now_ns);
   /// A hand has pressed on a replica whose owner has it as a body.
   void press(const ItemPush& push);
-  /// Beats, adoptions, contents; after tell(), and as often as packets come.
+  /// Beats, adoptions, contents; after publish(), and as often as packets come.
   void step(std::int64_t now_ns);
 
   /// By rising ids. Contents may not be here yet.
@@ -106,8 +106,8 @@ class SharedWorld {
   ShareCounts counts(std::int64_t now_ns) const;
 
  private:
-  /// What an object that this server owns was when it was told last.
-  struct Told {
+  /// What was last sent of an object that this server owns.
+  struct Sent {
     ItemMotion motion;
     std::int64_t time_ns = 0;
     std::int64_t item_ns = 0;  // of the last item
@@ -119,14 +119,14 @@ class SharedWorld {
     std::shared_ptr<const proto::ShareContent> content;
     std::int64_t heard_ns = 0;
     Track track;  // of its owner's poses, if that is another server
-    Told told;
+    Sent sent;
     ItemMotion begin;                            // when this server took it over
     std::map<ServerId, std::uint64_t> pushed{};  // numbers of the last pushes
   };
 
   bool isOwn(const Record& record) const { return record.item.owner() == self_.id; }
   void hearItem(const proto::ShareItem& item, std::int64_t now_ns);
-  void tellWinner(const proto::ShareItem& winner, const proto::ShareItem& older);
+  void sendWinner(const proto::ShareItem& winner, const proto::ShareItem& older);
   void post(ServerId to, proto::ShareMessage message);
   void hearPoses(const proto::SharePoses& poses, std::int64_t now_ns);
   void hearPush(const proto::SharePush& push);

@@ -31,7 +31,7 @@ class DepthFrame final : public PrimitiveSource {
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
   std::size_t bytes() const override { return sizeof(*this); }
   SharedMemory shared() const override { return {&image(), image().bytes()}; }
-  /// 0: the triangles are the surface. How well the camera measures, no image tells.
+  /// 0: the triangles are the surface. No image gives how well the camera measures.
   double error_m() const override { return 0; }
   /// Matter is what the camera does not see: behind the surface, as far as there is one.
   Site siteOf(const Vec3& point) const override;

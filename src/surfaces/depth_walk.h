@@ -88,7 +88,7 @@ class DepthWalk {
             std::min(first + DepthTiles::kTiles - 1, static_cast<std::uint32_t>(cells.last / side))};
   }
 
-  // The highest levels, of which a small ball meets one tile or two, tell nothing.
+  // The highest levels, of which a small ball meets one tile or two, exclude nothing.
   void enterTop() {
     const std::uint64_t span = std::max(columns_.last - columns_.first, rows_.last - rows_.first);
     int level = 0;

@@ -48,7 +48,7 @@ class HeightWalk {
             static_cast<std::uint32_t>(std::min<double>(high, last)), false};
   }
 
-  // The highest levels, of which a small ball meets one block or two, tell nothing.
+  // The highest levels, of which a small ball meets one block or two, exclude nothing.
   void enterTop() {
     const double span = (ball_.high() - ball_.low()).head<2>().maxCoeff();
     int level = 0;

@@ -48,7 +48,7 @@ class IsoSurface final : public PrimitiveSource {
   const IsoValue& iso() const { return cells_.iso(); }
   /// What its values feel like; null: nobody has said.
   const std::shared_ptr<const MatterTable>& matter() const { return matter_; }
-  /// Whether there is a triangle, which triangles() does not tell: the bricks that may have one are searched.
+  /// Whether there is a triangle, which triangles() does not report: the bricks that may have one are searched.
   bool crossesAny() const;
 
  private:

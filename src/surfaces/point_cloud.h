@@ -29,7 +29,7 @@ class PointCloud final : public PrimitiveSource {
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
   std::size_t bytes() const override { return sizeof(*this); }
   SharedMemory shared() const override { return {points().get(), points()->bytes()}; }
-  /// Between a point and where the file has it. How far the points are from the matter no file tells.
+  /// Between a point and where the file has it. No file gives how far the points are from the matter.
   double error_m() const override;
   std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const override;
   DrawnMesh drawn(std::size_t most) const override;

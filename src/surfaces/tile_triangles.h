@@ -2,7 +2,7 @@
 // instruction set; all give the same bits.
 //
 // A triangle is left out where a plane separates it from the ball all the way: across the direction to its middle,
-// which tells of triangles that are small against their distance, or across its normal, which tells of large ones. All
+// which shows triangles that are small against their distance, or across its normal, which shows large ones. All
 // is in float, relative to the middle of the way and in units of the radius; the caller makes it larger by the
 // rounding.
 #pragma once

@@ -103,7 +103,7 @@ class PlateScene {
   Instance plate_;
 };
 
-// Of a force or a stretch, whose swings are told one by one.
+// Of a force or a stretch, whose swings are given one by one.
 class Growth {
  public:
   explicit Growth(double whole) : whole_(whole) {}
@@ -111,7 +111,7 @@ class Growth {
     if (part > 0.2 && part < 0.4) early_ = std::max(early_, swing);
     if (part > 0.8) late_ = std::max(late_, swing);
   }
-  // A swing that stays is told from one that grows: samples miss its peaks by different parts.
+  // A swing that stays is distinguished from one that grows: samples miss its peaks by different parts.
   bool grows(double least) const { return late_ > 1.001 * early_ && late_ > least * whole_; }
 
  private:

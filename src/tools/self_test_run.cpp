@@ -67,16 +67,16 @@ class SelfTestThread {
 
 }  // namespace
 
-SelfTestRun runSelfTest(Device& device, const std::function<void(SelfTestPart)>& tell) {
+SelfTestRun runSelfTest(Device& device, const std::function<void(SelfTestPart)>& report) {
   SelfTestRun result;
   result.rate_Hz = device.info().servo_rate_Hz;
   SelfTestThread test(device);
   std::thread thread = startThread("self test", [&] { test.run(result); });
   while (!test.ready()) std::this_thread::yield();
   test.watch(result.grant.fifo);
-  SelfTestPart told = SelfTestPart::kArm;
-  while (told != SelfTestPart::kDone) {
-    if (const SelfTestPart part = test.part(); part != told) tell(told = part);
+  SelfTestPart reported = SelfTestPart::kArm;
+  while (reported != SelfTestPart::kDone) {
+    if (const SelfTestPart part = test.part(); part != reported) report(reported = part);
     std::this_thread::sleep_for(kLook);
   }
   thread.join();

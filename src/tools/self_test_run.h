@@ -18,7 +18,7 @@ struct SelfTestRun {
   std::vector<std::string> faults;  ///< empty: passed
 };
 
-/// Tests `device`, which is open and ready, for 20 s. `tell` is called with each part as it begins, on this thread.
-SelfTestRun runSelfTest(Device& device, const std::function<void(SelfTestPart)>& tell);
+/// Tests `device`, which is open and ready, for 20 s. `report` is called with each part as it begins, on this thread.
+SelfTestRun runSelfTest(Device& device, const std::function<void(SelfTestPart)>& report);
 
 }  // namespace hl

@@ -49,16 +49,16 @@ class Tracer {
   }
   const BodyWorld* bodies() const { return bodies_.get(); }
   /// How the bodies are now.
-  void tell(TraceRow& row) {
+  void describe(TraceRow& row) {
     if (!bodies_) return;
     const World& world = bodies_->world();
     const WorldState& state = bodies_->state();
-    told_.clear();
+    traced_.clear();
     for (std::size_t i = 0; i < state.bodies.size(); ++i) {
       const BodyState& body = state.bodies[i];
-      told_.push_back({poseOf(world.bodies[i], body).origin, body.turned, body.velocity, body.spin});
+      traced_.push_back({poseOf(world.bodies[i], body).origin, body.turned, body.velocity, body.spin});
     }
-    row.bodies = told_;
+    row.bodies = traced_;
     row.world = {kineticEnergy_J(world, state), gravityEnergy_J(world, state), state.energy, hashOf(world, state)};
   }
 
@@ -69,7 +69,7 @@ class Tracer {
   ProxySettings settings_;
   ManyRecentPrimitives recent_;
   ProxyState state_;
-  std::vector<TracedBody> told_;
+  std::vector<TracedBody> traced_;
 };
 
 }  // namespace
@@ -107,7 +107,7 @@ TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, const
     out.snap = tracer.snap();
     out.turned = path[i].turned;
     out.gripper_rad = path[i].gripper_rad;
-    tracer.tell(out);
+    tracer.describe(out);
     row(out);
     if (i == 0) totals.before = out.world;
     totals.after = out.world;

@@ -49,7 +49,7 @@ void BodyEvents::end(std::int64_t now_ns, double period_s, const BodyWorld& bodi
   }
 }
 
-// An impact ends with the first step that gives less, or is told when it has gone on for long.
+// An impact ends with the first step that gives less, or is reported when it has gone on for long.
 void BodyEvents::strike(Seen& seen, std::int64_t now_ns, const Vec3& given_m_s, double most_m_s, std::size_t i,
                         const BodyWorld& bodies) {
   const bool struck = given_m_s.norm() > most_m_s;
@@ -61,8 +61,8 @@ void BodyEvents::strike(Seen& seen, std::int64_t now_ns, const Vec3& given_m_s, 
   if (struck || seen.struck) seen.given_m_s += given_m_s;
   const bool ends = seen.struck && (!struck || now_ns - seen.struck_ns >= kQuiet_ns);
   seen.struck = struck && !ends;
-  if (!ends || seen.struck_ns - seen.told_ns < kQuiet_ns) return;
-  seen.told_ns = seen.struck_ns;
+  if (!ends || seen.struck_ns - seen.reported_ns < kQuiet_ns) return;
+  seen.reported_ns = seen.struck_ns;
   const double impulse_N_s = bodies.world().bodies[i].mass.mass_kg * seen.given_m_s.norm();
   events_.push({BodyEventKind::kImpact, seen.struck_ns, seen.object, impulse_N_s, bodies.state().bodies[i].centre});
 }

@@ -28,7 +28,7 @@ class BodyEvents {
  public:
   /// Beyond what gravity does in a step: less is a push.
   static constexpr double kStruck_m_s = 0.05;
-  /// A body that is hit again within this time is not told of again.
+  /// A body that is hit again within this time is not reported again.
   static constexpr std::int64_t kQuiet_ns = 20'000'000;
 
   /// Before a step of these bodies, after what clients did to them.
@@ -43,11 +43,11 @@ class BodyEvents {
   struct Seen {
     ObjectName object;
     bool asleep = false, struck = false;
-    Vec3 velocity = Vec3::Zero();      // m/s, before the step
-    Vec3 last_m_s = Vec3::Zero();      // given in the last step
-    Vec3 given_m_s = Vec3::Zero();     // in the impact that goes on
-    std::int64_t struck_ns = 0;        // when that began
-    std::int64_t told_ns = kNever_ns;  // the last impact
+    Vec3 velocity = Vec3::Zero();          // m/s, before the step
+    Vec3 last_m_s = Vec3::Zero();          // given in the last step
+    Vec3 given_m_s = Vec3::Zero();         // in the impact that goes on
+    std::int64_t struck_ns = 0;            // when that began
+    std::int64_t reported_ns = kNever_ns;  // the last impact
   };
   void follow(const Snapshot& scene, const BodyWorld& bodies);
   void strike(Seen& seen, std::int64_t now_ns, const Vec3& given_m_s, double most_m_s, std::size_t i,

@@ -1,4 +1,4 @@
-// BodyHand: a finger's proxy as a hand at the bodies: what they are told of it before a tick, and what they get after
+// BodyHand: a finger's proxy as a hand at the bodies: what they are given of it before a tick, and what they get after
 // it.
 #pragma once
 

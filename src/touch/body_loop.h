@@ -1,4 +1,4 @@
-// BodyLoop: a step of the bodies as a loop makes it: first what clients do to them, then the step, then what is told of
+// BodyLoop: a step of the bodies as a loop makes it: first what clients do to them, then the step, then the events of
 // it.
 #pragma once
 

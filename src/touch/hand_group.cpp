@@ -30,7 +30,7 @@ void HandGroup::run() {
               [&](std::int64_t) { guarded([this] { tick(monotonicNow_ns()); }); });
 }
 
-void HandGroup::tell(ProxyLoop& hand) {
+void HandGroup::giveCommands(ProxyLoop& hand) {
   BodyCommands commands;
   commands_.takeNext(commands);
   hand.act(commands);
@@ -41,12 +41,12 @@ void HandGroup::tell(ProxyLoop& hand) {
 void HandGroup::tick(std::int64_t now_ns) {
   const Snapshot& scene = scenes_.take();
   FixedVector<HandInStep, kMaxHands> hands;
-  bool told = false;  // what clients do to bodies: by the first hand
+  bool given = false;  // what clients do to bodies: by the first hand
   for (Seat& seat : seats_) {
     HandInStep hand;
     if (seat.ticker().isTurnOf(Turn::kGroup)) {
       hand = {&seat.ticker().loop(), &seat.begin(now_ns)};
-      if (!std::exchange(told, true)) tell(*hand.loop);
+      if (!std::exchange(given, true)) giveCommands(*hand.loop);
     }
     hands.push(hand);
   }

@@ -49,7 +49,7 @@ class HandGroup {
  private:
   using Seat = TickBeside;
   void run();
-  void tell(ProxyLoop& hand);
+  void giveCommands(ProxyLoop& hand);
 
   SnapshotSlot scenes_;
   const double rate_Hz_;

@@ -38,7 +38,7 @@ class HandMover {
   bool hasHand() const { return hand_ != nullptr; }
   void setGoal(const Vec3& goal_W);  ///< a person takes over from the exploration
   void release();
-  /// To a place above everything that is no higher than `top_D` (m, device frame), whatever else it is told, until
+  /// To a place above everything that is no higher than `top_D` (m, device frame), whatever else it is commanded, until
   /// free(). Waits until it is there, `most_s` at most: the scene may hold it. Whether it is there, or there is no
   /// hand.
   bool moveAside(double top_D, double most_s);
@@ -83,7 +83,7 @@ class HandMover {
   std::atomic<bool> exploring_, firm_;
   std::mutex mutex_;  // of the next; the real-time loops never see it
   Commands commands_;
-  std::atomic<double> aside_top_D_{kFree};  // m; kFree: it is where it is told
+  std::atomic<double> aside_top_D_{kFree};  // m; kFree: it is where it is commanded to be
   std::atomic<bool> aside_{false};          // it has come there
   LoopThread thread_;
 };

@@ -12,7 +12,7 @@ namespace hl {
 
 struct HandInStep {
   ProxyLoop* loop = nullptr;             ///< null: it is not there
-  const TickRequest* request = nullptr;  ///< but for `on_bodies`: what clients do has been told to the loop
+  const TickRequest* request = nullptr;  ///< but for `on_bodies`: what clients do has been given to the loop
   int most_looks = kNoWorkCap;           ///< as in ProxyLoop::step()
   ProxyStep out{};
 };

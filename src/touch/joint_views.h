@@ -1,4 +1,4 @@
-// Joint views: tells other threads what the joints of a world do, after each step.
+// Joint views: reports to other threads what the joints of a world do, after each step.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ class JointViews {
  public:
   /// Of those joints of the scene for which somebody asks. Allocates.
   JointViews(const Snapshot& scene, const World& world);
-  /// After a step of this length; what sleeps is not told again. RT-safe.
+  /// After a step of this length; what sleeps is not reported again. RT-safe.
   void show(const World& world, const WorldState& state, double period_s);
 
  private:

@@ -128,12 +128,12 @@ ProxyStep ProxyLoop::end(BodyWorld* bodies, std::size_t hand, int most_looks) {
     step.report.injected_J = step.report.moved_J = 0;
   }
   if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, now.finger_D), 1e-9 * kAbruptBlend_ns);
-  tell(now.time_ns, now.finger_D, scene, step);
+  describe(now.time_ns, now.finger_D, scene, step);
   return step;
 }
 
 // What the tick means to the servo and to those who watch.
-void ProxyLoop::tell(std::int64_t now_ns, const Vec3& finger_D, const SceneAt& scene, ProxyStep& step) {
+void ProxyLoop::describe(std::int64_t now_ns, const Vec3& finger_D, const SceneAt& scene, ProxyStep& step) {
   const TickReport& report = step.report;
   for (const ProxyContact& contact : report.contacts) step.touched.push(nameOf(scene.instance(contact.primitive)));
   step.snap = snapOf(scene.snapshot());

@@ -133,7 +133,7 @@ class ProxyLoop {
   Vec3 changeOfPull(const Snapshot& snapshot);
   Vec3 pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const;
   double energyOf_J(const ServoTarget& target, const Vec3& finger_D) const;
-  void tell(std::int64_t now_ns, const Vec3& finger_D, const SceneAt& scene, ProxyStep& step);
+  void describe(std::int64_t now_ns, const Vec3& finger_D, const SceneAt& scene, ProxyStep& step);
   HoldingSnap snapOf(const Snapshot& snapshot) const;
   HeldContacts heldBy(const TickReport& report, const ServoTarget& target) const;
   ServoTarget targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report);

@@ -86,7 +86,7 @@ void ServoLoop::step() {
   if (watch_.stalled()) parts_.device.write(Vec3::Zero());
   parts_.exchange.finger_for_hand_D.write(sample.position);
   if (settings_.remote.on) parts_.exchange.remote_ports.write(step_.servo().remote);
-  tell({before, command, settings_, step_.target(), sample, out, 0}, now_ns);
+  publish({before, command, settings_, step_.target(), sample, out, 0}, now_ns);
 }
 
 // A device that is not ready, homing or connecting, arms when it is; one that stops with others, when none is in fault.
@@ -134,7 +134,7 @@ ServoOutput ServoLoop::tickAndTouch(const DeviceSample& sample) {
   return out;
 }
 
-void ServoLoop::tell(const ServoRecord& record, std::int64_t begin_ns) {
+void ServoLoop::publish(const ServoRecord& record, std::int64_t begin_ns) {
   const DeviceSample& sample = record.sample;
   const ServoOutput& out = record.out;
   const ServoTarget& target = record.target;

@@ -43,7 +43,7 @@ class ServoLoop {
   void shareFault();
   ServoOutput touch(const DeviceSample& sample);
   ServoOutput tickAndTouch(const DeviceSample& sample);
-  void tell(const ServoRecord& record, std::int64_t begin_ns);
+  void publish(const ServoRecord& record, std::int64_t begin_ns);
 
   LoopParts parts_;
   DeviceReader reader_;

@@ -1,5 +1,5 @@
 // ServoWatch: the thread that watches the servo from outside. When the servo stands still, in a driver's call or
-// because the machine does not run it, the device is told to stop by a way of its own, and the servo, should it go on,
+// because the machine does not run it, the device is stopped by a way of its own, and the servo, should it go on,
 // finds itself in fault.
 #pragma once
 

@@ -81,7 +81,7 @@ class TouchSession {
   void viewsForClients(ServoView& servo, ProxyView& proxy);                   ///< for HL clients; one thread at a time
   bool popSample(TouchSample& sample) { return views_.samples.pop(sample); }  ///< one thread only, as the next
   bool popEvent(TouchEvent& event) { return ticker_.popEvent(event); }
-  /// Of several hands at the bodies, the first one tells all.
+  /// Of several hands at the bodies, the first one reports all.
   bool popEvent(BodyEvent& event);
   /// The last steps, newer ones in the place of older ones. Any thread.
   const LogRing<ServoMoment>& moments() const { return views_.moments; }

@@ -68,7 +68,7 @@ void checkFilling(const FloatGrid& grid, const std::array<std::uint32_t, 3>& sid
       active, side[0], side[1], side[2], 1e-9 * sizeof(float) * static_cast<double>(all), shown(grid.getName())));
 }
 
-// What a walk over the voxels of a level set tells.
+// What a walk over the voxels of a level set finds.
 struct LevelSetLook {
   float least = std::numeric_limits<float>::infinity(), most = -least;
   std::size_t narrow = 0;  ///< voxels at the surface with another surface within two voxels

@@ -10,7 +10,7 @@
 
 namespace hl {
 
-/// What a file tells of one of its grids.
+/// What a file gives of one of its grids.
 struct GridInFile {
   std::string name;
   std::string type;  ///< of its values, for users: "float"

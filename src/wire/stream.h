@@ -1,5 +1,5 @@
 // Stream: a TCP connection, or TLS over one, as one type, so that whatever speaks HTTP or WebSockets over it is
-// compiled once and cannot tell the difference. Used at both ends.
+// compiled once and is the same for both. Used at both ends.
 #pragma once
 
 #include <boost/asio/ssl/context.hpp>

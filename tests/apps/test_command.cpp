@@ -53,7 +53,7 @@ TEST(Command, AVolumeWithoutASurfaceSaysWhatItsValuesAre) {
   EXPECT_EQ(call("info --iso -480,300 ct:phantom:41").code, 0) << "a scene may follow the values";
 }
 
-TEST(Command, AWordThatIsNoneOfAnOptionIsToldWithThoseThatAre) {
+TEST(Command, AWordThatIsNoneOfAnOptionIsReportedWithThoseThatAre) {
   const std::string trace = "trace teapot --path " + hl::test::fileWith("p.csv", "t,x,y,z\n0,0,1,0\n") + " --out " +
                             hl::test::tempFile("o.csv") + " ";
   EXPECT_EQ(call(trace + "--shade smooth --ledger report --textures off").code, 0);
@@ -125,8 +125,8 @@ TEST(Command, DoctorTestsADeviceAndWritesAReport) {
   const std::string report = hl::test::tempFile("doctor.json");
   const Result result = call("doctor sim --self-test --report " + report);
   EXPECT_LE(result.code, 1) << result.output;
-  for (const char* told : {"locale: ", "ready: ", "self-test: ", "pull +1", "verdict: ", "servo rate: ", "report: "})
-    EXPECT_NE(result.output.find(told), std::string::npos) << told << result.output;
+  for (const char* part : {"locale: ", "ready: ", "self-test: ", "pull +1", "verdict: ", "servo rate: ", "report: "})
+    EXPECT_NE(result.output.find(part), std::string::npos) << part << result.output;
   const std::string written = contentOf(report);
   for (const char* key : {"hl_doctor", "machine", "findings", "self_test", "passed", "pulls"})
     EXPECT_NE(written.find(key), std::string::npos) << key << written;
@@ -438,28 +438,28 @@ std::string sceneWithBodies() {
 TEST(Command, InfoAddsUpAllObjectsAndListsBodies) {
   const Result result = call("info " + sceneWithBodies());
   EXPECT_EQ(result.code, 0);
-  for (const char* told : {"body floor: fixed", "body red ball: ball, 0.25 kg", "body block: box, ", "restitution 0.5",
+  for (const char* part : {"body floor: fixed", "body red ball: ball, 0.25 kg", "body block: box, ", "restitution 0.5",
                            "gravity:    0 -5 0 m/s^2"})
-    EXPECT_NE(result.output.find(told), std::string::npos) << told << '\n' << result.output;
+    EXPECT_NE(result.output.find(part), std::string::npos) << part << '\n' << result.output;
   EXPECT_EQ(call("info sphere:100").output.find("gravity"), std::string::npos);
 }
 
 TEST(Command, MatterIsAboveTheIsoValueUnlessItIsSaidToBeBelow) {
-  for (const auto& [options, told] :
+  for (const auto& [options, part] :
        {std::pair{"", "matter above"}, {" --below", "matter below"}, {" --below=false", "matter above"}}) {
     const Result result = call(std::string("info ct:phantom:16") + options);
     EXPECT_EQ(result.code, 0) << result.output;
-    EXPECT_NE(result.output.find(told), std::string::npos) << options << '\n' << result.output;
+    EXPECT_NE(result.output.find(part), std::string::npos) << options << '\n' << result.output;
   }
 }
 
 TEST(Command, InfoListsJoints) {
   const Result result = call("info workshop");
   EXPECT_EQ(result.code, 0);
-  for (const char* told : {"joint drawer slide: slider, drawer to the world, 0 .. 0.034 m, friction 0.15 N\n",
+  for (const char* part : {"joint drawer slide: slider, drawer to the world, 0 .. 0.034 m, friction 0.15 N\n",
                            "joint button 1 slide: ", "damping 0.05 N s/m, a force table of 4 rows\n",
                            "body ring: parts, ", " kg, 16 parts, "})
-    EXPECT_NE(result.output.find(told), std::string::npos) << told << '\n' << result.output;
+    EXPECT_NE(result.output.find(part), std::string::npos) << part << '\n' << result.output;
 }
 
 TEST(Command, BodiesAreTracedRecordedAndReproduced) {
@@ -487,7 +487,7 @@ TEST(Command, AKilledRecordingIsReproducedAsFarAsItGoes) {
   EXPECT_NE(lineWith(replayed.output, "ended:").find("killed"), std::string::npos) << replayed.output;
 }
 
-TEST(Command, AFaultTellsWhereItsBlackBoxIs) {
+TEST(Command, AFaultReportsWhereItsBlackBoxIs) {
   const std::string boxes = hl::test::tempFile("hl_cmd_boxes");
   const Result touched = call("touch teapot --no-open --port 0 --duration 2 --speed-limit 0.001 --black-box " + boxes);
   ASSERT_EQ(touched.code, 0) << touched.output;

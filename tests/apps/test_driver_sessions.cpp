@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Drivers, DriverSession, testing::ValuesIn(benchKinds())
 
 // ---- hl touch itself ------------------------------------------------------------------------------------------------
 
-/// `hl touch` on a plane with `device`, or with two, told to end when it is destroyed.
+/// `hl touch` on a plane with `device`, or with two, ended when it is destroyed.
 class TouchProcess {
  public:
   explicit TouchProcess(const std::string& device, const std::string& second = "sim") {

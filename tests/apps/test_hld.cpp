@@ -1,4 +1,4 @@
-// hld as an operator meets it: its log, its signals, its configuration file, and what it tells systemd.
+// hld as an operator meets it: its log, its signals, its configuration file, and what it reports to systemd.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -88,7 +88,7 @@ unsigned metricsWith(std::uint16_t port, const std::string& token) {
   return request(port, "/metrics", {{hl::test::http::field::authorization, "Bearer " + token}}).result_int();
 }
 
-TEST(Hld, ServesUntilItIsToldToEnd) {
+TEST(Hld, ServesUntilItIsStopped) {
   for (const int number : {SIGTERM, SIGINT}) {
     Daemon daemon({"--port", "0"});
     const std::uint16_t port = daemon.port();
@@ -153,7 +153,7 @@ TEST(Hld, LogsInJson) {
   };
   std::string line = daemon.line("\"event\":\"ready\"");
   expectJson(line);
-  // An Open whose token is no text: nothing but the log's own line tells of it.
+  // An Open whose token is no text: nothing but the log's own line reports it.
   hl::test::PlainClient client(portOf(line));
   client.sendBinary("\x0a\x03\x1a\x01\xff");
   EXPECT_NE(client.readToEnd(), "");
@@ -165,7 +165,7 @@ TEST(Hld, LogsInJson) {
   EXPECT_EQ(daemon.end(SIGTERM), 0);
 }
 
-TEST(Hld, TellsSystemdWhenItIsReadyAndWhenItStops) {
+TEST(Hld, NotifiesSystemdWhenItIsReadyAndWhenItStops) {
   const std::string path = hl::test::tempFile("notify");
   const int socket = ::socket(AF_UNIX, SOCK_DGRAM, 0);
   sockaddr_un address{};

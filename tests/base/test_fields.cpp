@@ -69,7 +69,7 @@ TEST(Values, ThatAFieldCanNotHoldAreNotTaken) {
   }
 }
 
-TEST(Values, OfAnotherFormAreTold) {
+TEST(Values, OfAnotherFormAreReported) {
   for (const bool more : {true, false}) {
     Values values = valuesOf(Whole{});
     more ? values.numbers.push_back(1) : values.numbers.pop_back();

@@ -1,4 +1,4 @@
-// Guarded threads: what a piece of work throws ends that piece alone, is counted under the thread's name, and told.
+// Guarded threads: what a piece of work throws ends that piece alone, is counted under the thread's name, and reported.
 #include "base/guarded_thread.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ ThreadFailures failuresOf(const std::string& thread) {
   return {};
 }
 
-std::string told;  // of the thread that is joined before it is read
+std::string reported;  // of the thread that is joined before it is read
 
 TEST(GuardedThread, IsKnownToTheKernelByItsName) {
   std::string kernel, own;
@@ -42,8 +42,8 @@ TEST(GuardedThread, IsKnownToTheKernelByItsName) {
   EXPECT_EQ(std::string(threadName()), "") << "this thread is the test's";
 }
 
-TEST(GuardedThread, WhatAPieceOfWorkThrowsIsCountedToldAndOver) {
-  setTellFailure([](const char* thread, const char* what) { told = std::string(thread) + ": " + what; });
+TEST(GuardedThread, WhatAPieceOfWorkThrowsIsCountedReportedAndOver) {
+  setReportFailure([](const char* thread, const char* what) { reported = std::string(thread) + ": " + what; });
   startThread("test pieces", [] {
     EXPECT_FALSE(guarded([] { throw std::runtime_error("a piece"); }));
     EXPECT_TRUE(failuresOf("test pieces").now);
@@ -51,9 +51,9 @@ TEST(GuardedThread, WhatAPieceOfWorkThrowsIsCountedToldAndOver) {
     EXPECT_TRUE(guarded([] {}));
     EXPECT_FALSE(failuresOf("test pieces").now) << "its newest piece went well";
   }).join();
-  setTellFailure(nullptr);
+  setReportFailure(nullptr);
   EXPECT_EQ(failuresOf("test pieces").count, 2u);
-  EXPECT_EQ(told, "test pieces: something that says nothing of itself");
+  EXPECT_EQ(reported, "test pieces: something that says nothing of itself");
 }
 
 TEST(GuardedThread, ABodyThatThrowsRunsOnceMore) {
@@ -65,10 +65,10 @@ TEST(GuardedThread, ABodyThatThrowsRunsOnceMore) {
   EXPECT_EQ(failuresOf("test body").count, 2u);
 }
 
-TEST(GuardedThread, OneThatCannotTellStillGoesOn) {
-  setTellFailure([](const char*, const char*) { throw std::bad_alloc(); });
+TEST(GuardedThread, OneThatCannotReportStillGoesOn) {
+  setReportFailure([](const char*, const char*) { throw std::bad_alloc(); });
   EXPECT_FALSE(guarded([] { throw std::runtime_error("a piece"); }));
-  setTellFailure(nullptr);
+  setReportFailure(nullptr);
 }
 
 TEST(GuardedThread, TriesUntilItSucceedsOrIsNoLongerWanted) {

@@ -1,4 +1,4 @@
-// LogRing: the last values are there, older ones are told as gone, and no reader ever sees half of one.
+// LogRing: the last values are there, older ones are reported as gone, and no reader ever sees half of one.
 #include "base/log_ring.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ struct Value {
   }
 };
 
-TEST(LogRing, HoldsTheLastOnesAndTellsWhatIsGone) {
+TEST(LogRing, HoldsTheLastOnesAndReportsWhatIsGone) {
   LogRing<Value> ring(100);
   EXPECT_EQ(ring.room(), 128u);
   Value value{};

@@ -1,4 +1,4 @@
-// What is no plain file is told by its name and what it is, and never waited for.
+// What is no plain file is reported by its name and what it is, and never waited for.
 #include "base/plain_file.h"
 
 #include <gtest/gtest.h>

@@ -130,7 +130,7 @@ TEST(RequestRealtime, LeavesTheMemoryOfTheProcessAlone) {
 }
 
 // Locked for good: in a process of its own. What is not used yet takes no memory.
-TEST(LockProcessMemoryDeathTest, LocksWhatIsUsedAndIsTold) {
+TEST(LockProcessMemoryDeathTest, LocksWhatIsUsedAndIsReported) {
 #ifdef HL_SANITIZED
   GTEST_SKIP() << "the sanitizers' mlockall() locks nothing and says that it did";
 #endif

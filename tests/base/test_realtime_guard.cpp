@@ -56,10 +56,10 @@ TEST(RealtimeGuard, OtherThreadsAndLaterScopesAreFree) {
   allocate(1000);
 }
 
-// What a scope of the guard forbids, and the word by which it tells so.
+// What a scope of the guard forbids, and the word by which it reports so.
 struct Forbidden {
   const char* name;
-  const char* told;
+  const char* word;
   void (*act)();
   bool sanitized_too = false;  // the guard finds it in builds with sanitizers as well
 };
@@ -135,7 +135,7 @@ TEST_P(RealtimeGuardDeathTest, FindsWhatIsForbidden) {
         const RealtimeGuard guard;
         forbidden.act();
       },
-      std::string("a real-time scope calls (") + forbidden.told + ")");
+      std::string("a real-time scope calls (") + forbidden.word + ")");
   ::operator delete(block);
 }
 

@@ -1,4 +1,4 @@
-// Addresses that people write: what of them is understood, what is refused, and that a token is never told again.
+// Addresses that people write: what of them is understood, what is refused, and that a token is never repeated.
 #include "base/url.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(Url, WhatIsNotThereIsAbsent) {
   EXPECT_TRUE(url.options.empty());
 }
 
-TEST(Url, NonsenseIsRefusedWithoutTellingItAgain) {
+TEST(Url, NonsenseIsRefusedWithoutRepeatingIt) {
   for (const char* text :
        {"", "lab", "hl://secret:", "hl://secret:0", "hl://secret:70000", "hl://secret:99999", "hl://secret:111955",
         "hl://a secret", "hl://[::1", "hl://u@secret", "hl://h?token=secret%4", "hl://h?token=secret#x", "hl://"}) {

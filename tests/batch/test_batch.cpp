@@ -246,7 +246,7 @@ TEST(Batch, FieldsAndSnapsAreFelt) {
   EXPECT_NEAR(results.force[3], -0.001 * settings.spring, 1e-9);
 }
 
-TEST(Batch, ACallThatIsToldToEndsEarlyWithAnError) {
+TEST(Batch, ACallThatIsCancelledEndsEarlyWithAnError) {
   const Scene scene = load("teapot");
   const std::vector<double> points(3000);
   std::vector<double> distance(1000);

@@ -318,7 +318,7 @@ TEST(BodyStep, R23ATopKeepsItsMomentumAndEnergy) {
 }
 
 // Identity of energy_book.h with balls and blocks that fall onto each other and bounce.
-TEST(BodyStep, WhatIsTooFastIsSlowedAndTold) {
+TEST(BodyStep, WhatIsTooFastIsSlowedAndReported) {
   World world;
   world.fixed = floorScene();
   world.bodies = {block(1, 1e-6, Vec3::Constant(1e-3), 0.5), ball(2, 1, 0.01, 0.5)};
@@ -335,7 +335,7 @@ TEST(BodyStep, WhatIsTooFastIsSlowedAndTold) {
   }
 }
 
-TEST(BodyStep, TheEnergyBookTellsEveryJoule) {
+TEST(BodyStep, TheEnergyBookHoldsEveryJoule) {
   std::vector<Body> bodies;
   std::vector<Pose> poses;
   for (std::uint64_t i = 0; i < 12; ++i) {

@@ -23,10 +23,10 @@ bool noneSleeps(const WorldState& state) {
 // Steps, and demands that the energy book closes in each.
 void stepsInBook(Playground& play, int count) {
   for (int i = 0; i < count; ++i) {
-    const double before_J = play.energy_J(), told_J = play.state.energy.change_J();
+    const double before_J = play.energy_J(), booked_J = play.state.energy.change_J();
     play.step();
-    const double told = play.state.energy.change_J() - told_J;
-    ASSERT_NEAR(play.energy_J() - before_J, told, 1e-9 * (1 + std::abs(before_J))) << i;
+    const double booked = play.state.energy.change_J() - booked_J;
+    ASSERT_NEAR(play.energy_J() - before_J, booked, 1e-9 * (1 + std::abs(before_J))) << i;
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// A step, and whether the energy book still tells all.
+// A step, and whether the energy book still holds all.
 void stepBooked(Playground& play, double begin_J, double scale_J) {
   play.step();
   ASSERT_NEAR(play.energy_J() - begin_J, play.state.energy.change_J(), 1e-9 * scale_J) << play.state.steps;

@@ -53,7 +53,7 @@ TEST(MeshPieces, AreSolidsThatAreApart) {
   EXPECT_EQ(piecesOf({}, {}).size(), 0u);
 }
 
-TEST(MeshPieces, OfNeighboursThatShareCornersAreTold) {
+TEST(MeshPieces, OfNeighboursThatShareCornersAreDistinguished) {
   for (const Vec3& at : {Vec3(2, 0, 0), Vec3(2, 2, 0), Vec3(2, 2, 2), Vec3(0, -2, 0), Vec3(0, 2, -2)}) {
     const Model two = boxesModel({{kOne, Vec3::Zero()}, {kOne, at}});
     for (const Model& model : {two, unwelded(two), turnedRound(two), movedBy(two, Vec3(1e3, -1e3, 500))}) {
@@ -85,7 +85,7 @@ TEST(MeshPieces, AreTheSameAtAnyScaleAndInAnyOrder) {
   }
 }
 
-// Walls whose corners are one in another, with edges in common: told by the order of their triangles.
+// Walls whose corners are one in another, with edges in common: distinguished by the order of their triangles.
 TEST(MeshPieces, OfACupAreItsWallsAndBottom) {
   EXPECT_EQ(countOf(cupModel(1, 2, 0.1)), 5u);
   EXPECT_EQ(countOf(unwelded(cupModel(1, 2, 0.1))), 5u);

@@ -182,7 +182,7 @@ TEST(NearlyConvex, OfRandomLumpsIsAsNearAsItSays) {
     for (int j = 0; j < 400; ++j) {
       const Vec3 point = placeAround(mesh, draws);
       const bool inside = isInside(mesh, point);
-      // The mesh is told at its corners and middles alone: between them the error may be a little more.
+      // The mesh is measured at its corners and middles alone: between them the error may be a little more.
       const double error = parts.error_m() + 0.02 * sizeOf(mesh);
       if (!inside && above(parts, point) < 0) {
         EXPECT_LT(distanceTo(mesh, point), error) << i << ' ' << j;

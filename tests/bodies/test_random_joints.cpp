@@ -1,4 +1,4 @@
-// Random worlds with joints in a closed room: every joule is told, nothing breaks, and joints hold.
+// Random worlds with joints in a closed room: every joule is booked, nothing breaks, and joints hold.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,7 +62,7 @@ struct RandomJoints : Draws {
   std::vector<Pose> poses;
 };
 
-TEST(RandomJoints, EveryJouleIsToldAndJointsHold) {
+TEST(RandomJoints, EveryJouleIsBookedAndJointsHold) {
   const int begin = numberIn("HL_FIRST_WORLD", 0);
   std::vector<double> worst_m;
   for (int seed = begin; seed < begin + numberIn("HL_RANDOM_WORLDS", 20); ++seed) {

@@ -1,4 +1,4 @@
-// Random worlds in a closed room: nothing leaves it, nothing passes through anything, and every joule is told.
+// Random worlds in a closed room: nothing leaves it, nothing passes through anything, and every joule is booked.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -108,14 +108,14 @@ void expectThatNothingLeaves(unsigned kinds) {
       play.state.bodies[i].spin = made.spins[i];
     }
     const double begin_J = play.energy_J();
-    double not_told_J = 0;  // rounding: a light body between heavy ones gets impulses far beyond its momentum
+    double not_booked_J = 0;  // rounding: a light body between heavy ones gets impulses far beyond its momentum
     for (int step = 0; step < 1000; ++step) {
       const BodyStepReport report = play.step();
       ASSERT_EQ(report.dropped, 0u);
       const EnergyBook& book = play.state.energy;
-      const double told = book.solver_J - book.contact_J - book.friction_J;
-      const double last_not_told_J = std::exchange(not_told_J, play.energy_J() - begin_J - told);
-      ASSERT_NEAR(not_told_J, last_not_told_J, 1e-9 * (1 + std::abs(begin_J))) << seed << " step " << step;
+      const double booked = book.solver_J - book.contact_J - book.friction_J;
+      const double last_not_booked_J = std::exchange(not_booked_J, play.energy_J() - begin_J - booked);
+      ASSERT_NEAR(not_booked_J, last_not_booked_J, 1e-9 * (1 + std::abs(begin_J))) << seed << " step " << step;
       ASSERT_LT(play.energy_J() - begin_J, 0.05 * (1e-3 + std::abs(begin_J))) << seed << " step " << step;
       for (const BodyState& body : play.state.bodies)
         ASSERT_TRUE(body.centre.allFinite() && body.centre.cwiseAbs().maxCoeff() < kRoom_m) << seed << " step " << step;

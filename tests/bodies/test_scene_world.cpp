@@ -88,7 +88,7 @@ TEST(SceneWorld, ASceneWithoutBodiesHasNoWorld) {
 }
 
 // 65 boxes on a circle are more than there may be parts, and too far from each other for common ones.
-TEST(SceneWorld, PartsThatAreFarFromTheMeshAreToldOnceForAShape) {
+TEST(SceneWorld, PartsThatAreFarFromTheMeshAreReportedOnceForAShape) {
   for (const int count : {8, 65}) {
     std::vector<std::pair<Vec3, Vec3>> boxes;
     for (int i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
 // FakeServer: a server in the test's hands, at the other end of a Link of the scheme "fake:". It welcomes, notes what
-// it is sent and, unless told otherwise, shows every frame at once.
+// it is sent and, unless set otherwise, shows every frame immediately.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ struct FakeServer {
     refusal.set_frame(frame);
     refusal.set_text(text);
   }
-  proto::ClientState& tell() { return *replies.emplace_back().mutable_state(); }
+  proto::ClientState& sendState() { return *replies.emplace_back().mutable_state(); }
 
   std::vector<proto::Frame> frames() const {
     std::vector<proto::Frame> all;

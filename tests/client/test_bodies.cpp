@@ -1,4 +1,4 @@
-// Rigid bodies by the calls: what is sent of them, what the state tells, and which calls are errors.
+// Rigid bodies by the calls: what is sent of them, what the state gives, and which calls are errors.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -139,8 +139,8 @@ TEST_F(CallsTest, BodiesOutOfRangeAreErrorsAndNotSent) {
   EXPECT_TRUE(server->received.empty());
 }
 
-TEST_F(CallsTest, TheStateTellsWhereBodiesAre) {
-  proto::ClientState& state = server->tell();
+TEST_F(CallsTest, TheStateGivesWhereBodiesAre) {
+  proto::ClientState& state = server->sendState();
   for (const std::uint32_t name : {8U, 5U}) {
     proto::BodyState& body = *state.add_bodies();
     body.set_object(3);

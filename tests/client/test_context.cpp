@@ -97,7 +97,7 @@ TEST_F(CallsTest, ContextsDoNotKnowOfEachOther) {
   hlDestroyContext(nullptr);
 }
 
-TEST_F(CallsTest, StringsTellOfLibraryServerAndDevice) {
+TEST_F(CallsTest, StringsDescribeLibraryServerAndDevice) {
   EXPECT_STREQ(hlGetString(HL_VENDOR), "HL");
   EXPECT_STREQ(hlGetString(HL_VERSION), "0.1.0");
   EXPECT_STREQ(hlGetString(HL_SERVER_VERSION), "fake");

@@ -79,17 +79,17 @@ void addSample(proto::ClientState& state, double time_s) {
 
 TEST_F(CallsTest, SamplesAreKeptUntilTheyAreTakenTheNewestOnes) {
   HLsample taken[4];
-  addSample(server->tell(), 1);
+  addSample(server->sendState(), 1);
   hlPoll();
   EXPECT_EQ(hlTakeSamples(4, taken), 0) << "nobody has asked";
   hlKeepSamples(3);
   EXPECT_TRUE(server->received.back().sample_request().wanted());
-  proto::ClientState& first = server->tell();
+  proto::ClientState& first = server->sendState();
   addSample(first, 1);
   addSample(first, 2);
   hlPoll();
-  addSample(server->tell(), 3);
-  addSample(server->tell(), 4);
+  addSample(server->sendState(), 3);
+  addSample(server->sendState(), 4);
   hlPoll();
   ASSERT_EQ(hlTakeSamples(2, taken), 2);
   EXPECT_EQ(taken[0].time, 2);
@@ -107,12 +107,12 @@ TEST_F(CallsTest, SamplesAreKeptUntilTheyAreTakenTheNewestOnes) {
   EXPECT_EQ(taken[0].grip_force, 1.5);
   hlKeepSamples(0);
   EXPECT_FALSE(server->received.back().sample_request().wanted());
-  addSample(server->tell(), 5);
+  addSample(server->sendState(), 5);
   hlPoll();
   EXPECT_EQ(hlTakeSamples(4, taken), 0);
 }
 
-proto::ContactReport& tellReport(FakeServer& server, double time_s, double interval_s, double force_N) {
+proto::ContactReport& sendReport(FakeServer& server, double time_s, double interval_s, double force_N) {
   proto::ContactReport& report = *server.replies.emplace_back().mutable_contact_report();
   report.set_time_s(time_s);
   report.set_interval_s(interval_s);
@@ -136,14 +136,14 @@ void addPoint(proto::ContactReport& report, HLuint session, HLuint object, const
 TEST_F(CallsTest, ContactReportsAreMeansSinceTheLastOneThatWasTaken) {
   HLcontactforce contacts[4];
   HLcontactreport report;
-  addPoint(tellReport(*server, 1, 0.02, 1), 7, 3, {1, 0, 0}, 1);
+  addPoint(sendReport(*server, 1, 0.02, 1), 7, 3, {1, 0, 0}, 1);
   hlPoll();
   EXPECT_EQ(hlTakeContactReport(4, contacts, &report), 0) << "nobody has asked";
   EXPECT_EQ(report.interval, 0);
   hlKeepContactReport(HL_TRUE);
   EXPECT_TRUE(server->received.back().contact_report_request().wanted());
-  addPoint(tellReport(*server, 2, 0.01, 1), 7, 3, {1, 0, 0}, 1);
-  proto::ContactReport& second = tellReport(*server, 3, 0.03, 3);
+  addPoint(sendReport(*server, 2, 0.01, 1), 7, 3, {1, 0, 0}, 1);
+  proto::ContactReport& second = sendReport(*server, 3, 0.03, 3);
   addPoint(second, 7, 3, {0, 1, 0}, 2);
   addPoint(second, 8, 3, {0, 1, 0}, 1);
   hlPoll();
@@ -193,7 +193,7 @@ TEST_F(CallsTest, AComplianceWithoutAForceIsForTheLastReport) {
   hlNewObject(3);
   hlEndObject();
   hlKeepContactReport(HL_TRUE);
-  proto::ContactReport& report = tellReport(*server, 1, 0.02, 6);
+  proto::ContactReport& report = sendReport(*server, 1, 0.02, 6);
   addPoint(report, 7, 3, {1, 0, 0}, 1);
   addPoint(report, 7, 3, {0, 1, 0}, 2);
   addPoint(report, 8, 3, {0, 0, 1}, 3);
@@ -206,7 +206,7 @@ TEST_F(CallsTest, AComplianceWithoutAForceIsForTheLastReport) {
 
 TEST_F(CallsTest, CountsOfTicksAndTheGripAreQueries) {
   EXPECT_EQ(integer(HL_HAND_GRIP), HL_GRIP_LIGHT);
-  proto::ClientState& state = server->tell();
+  proto::ClientState& state = server->sendState();
   state.set_iteration_caps(3);
   state.set_unplaced_ticks(4);
   state.mutable_ticks_ended()->set_out_of_work(5);
@@ -219,14 +219,14 @@ TEST_F(CallsTest, CountsOfTicksAndTheGripAreQueries) {
 }
 
 TEST_F(CallsTest, OnlyTheMasterSetsTheDevice) {
-  server->tell().set_master(false);
+  server->sendState().set_master(false);
   hlPoll();
   EXPECT_EQ(integer(HL_MASTER), HL_FALSE);
   hlProxyd(HL_PROXY_RADIUS, 1), expectError(HL_INVALID_OPERATION);
   hlRearm(), expectError(HL_INVALID_OPERATION);
   hlStateRate(30);  // everybody's own
   EXPECT_EQ(server->received.size(), 1U);
-  server->tell().set_master(true);
+  server->sendState().set_master(true);
   hlPoll();
   hlRearm();
 }
@@ -243,7 +243,7 @@ TEST_F(CallsTest, TheStylusIsAskedForAndTurned) {
   HLdouble turned[4];
   hlGetDoublev(HL_STYLUS_ROTATION, turned);
   EXPECT_EQ(turned[3], 1) << "before the first state it is not turned";
-  proto::ClientState& state = server->tell();
+  proto::ClientState& state = server->sendState();
   state.set_master(true);
   proto::Stylus& stylus = *state.mutable_stylus();
   stylus.mutable_rotation()->set_x(0.6);
@@ -280,7 +280,7 @@ proto::TouchedObject& touch(proto::ClientState& state, HLuint object, HLuint ses
 }
 
 TEST_F(CallsTest, QueriesAnswerFromTheLastStateTaken) {
-  proto::ClientState& state = server->tell();
+  proto::ClientState& state = server->sendState();
   state.mutable_finger()->set_y(2);
   state.mutable_force_n()->set_z(3);
   state.set_safety(proto::FAULT);
@@ -317,7 +317,7 @@ TEST_F(CallsTest, QueriesAnswerFromTheLastStateTaken) {
 }
 
 TEST_F(CallsTest, ContactsComeHardestFirstAndTouchedIsOurs) {
-  proto::ClientState& state = server->tell();
+  proto::ClientState& state = server->sendState();
   touch(state, 1, 7, 1e-3);
   touch(state, 2, 8, 5e-3);  // another session's
   touch(state, 3, 7, 2e-3);

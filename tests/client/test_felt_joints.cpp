@@ -116,7 +116,7 @@ class FeltJoints : public test::FeltServer {
     hlGetJointdv(kJoint, name, &value);
     return value;
   }
-  /// Waits until it is told of a value for which this holds.
+  /// Waits until it is sent a value for which this holds.
   static void awaitValue(HLenum name, const std::function<bool(double)>& holds) {
     test::waitFor([&] { return holds(valueOf(name)); });
   }

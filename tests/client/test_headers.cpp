@@ -161,7 +161,7 @@ TEST_F(Cpp, SpansThatDoNotFitAreRefused) {
 
 TEST_F(Cpp, QueriesAndContacts) {
   Context context("fake:");
-  proto::ClientState& state = server->tell();
+  proto::ClientState& state = server->sendState();
   state.mutable_proxy()->set_y(2);
   state.add_touched()->set_object(4);
   context.poll();

@@ -1,4 +1,4 @@
-// Joints by the calls: what is sent of them, what the state tells, and which calls are errors.
+// Joints by the calls: what is sent of them, what the state gives, and which calls are errors.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -156,8 +156,8 @@ TEST_F(CallsTest, AJointThatIsNotCompleteIsAnError) {
   EXPECT_EQ(server->frames()[0].world().joints(0).joint().axis().z(), 1);
 }
 
-TEST_F(CallsTest, TheStateTellsWhatJointsDo) {
-  proto::ClientState& state = server->tell();
+TEST_F(CallsTest, TheStateGivesWhatJointsDo) {
+  proto::ClientState& state = server->sendState();
   for (const std::uint32_t id : {8U, 5U}) {
     proto::JointState& joint = *state.add_joints();
     joint.set_id(id);

@@ -1,5 +1,5 @@
 // The calls against real servers: one scene, said in every way HL has and brought over every carrier, feels the same to
-// the last bit; and a finger on it is told to the program.
+// the last bit; and a finger on it is reported to the program.
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 #include <hl/hl.h>
@@ -335,7 +335,7 @@ TEST(Servers, AFloorWhoseVerticesRiseLiftsTheProxy) {
   hlDestroyContext(context);
 }
 
-TEST(Servers, AServerThatIsNotThereIsToldInOneLine) {
+TEST(Servers, AServerThatIsNotThereIsReportedInOneLine) {
   EXPECT_EQ(hlCreateContext("hl://127.0.0.1:1"), nullptr);
   const std::string why = hlGetConnectError();
   EXPECT_NE(why.find("127.0.0.1"), std::string::npos) << why;

@@ -1,4 +1,4 @@
-// Snaps by the calls: what is sent of them, what the state tells, and which calls are errors.
+// Snaps by the calls: what is sent of them, what the state gives, and which calls are errors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,12 +113,12 @@ TEST_F(CallsTest, FieldsOutOfRangeAreErrorsAndNotSent) {
   EXPECT_EQ(server->frames()[0].objects(0).fields_size(), 0);
 }
 
-TEST_F(CallsTest, TheStateTellsWhichSnapHolds) {
-  server->tell();
+TEST_F(CallsTest, TheStateGivesWhichSnapHolds) {
+  server->sendState();
   hlPoll();
   EXPECT_EQ(number(HL_SNAPPED_OBJECT), 0);
   const auto session = static_cast<std::uint32_t>(number(HL_SESSION));
-  proto::HoldingSnap& snap = *server->tell().mutable_snap();
+  proto::HoldingSnap& snap = *server->sendState().mutable_snap();
   snap.set_object(3);
   snap.set_name(7);
   snap.set_number(2);

@@ -71,8 +71,8 @@ class Life {
   std::int64_t now_ns_ = 1'000'000'000;
   Vec3 finger_ = Vec3::Zero();
   Vec3 before_N_ = Vec3::Zero();
-  Vec3 told_ = Vec3::Zero();  // where the finger was when the driver last said so
-  std::int64_t told_ns_ = 0;
+  Vec3 reported_ = Vec3::Zero();  // where the finger was when the driver last said so
+  std::int64_t reported_ns_ = 0;
   int away_steps_ = 0;     // left of a loss of the device
   int held_up_steps_ = 0;  // left in which the driver says nothing new
   int since_blow_steps_ = 0;
@@ -116,8 +116,8 @@ DeviceSample Life::sample(test::Injected& in) {
   now_ns_ += elapsed_ns;
   if (now_ns_ > 4'000'000'000'000'000'000) now_ns_ = 1'000'000'000;  // back again
   move(in);
-  DeviceSample sample{now_ns_, told_, 0, DeviceStatus::kOk};
-  sample.age_ns = now_ns_ - told_ns_;
+  DeviceSample sample{now_ns_, reported_, 0, DeviceStatus::kOk};
+  sample.age_ns = now_ns_ - reported_ns_;
   if (oneIn(8000)) away_steps_ = static_cast<int>(random_() % 200);
   if (away_steps_ > 0) {
     --away_steps_;
@@ -146,8 +146,8 @@ void Life::move(test::Injected& in) {
   if (held_up_steps_ > 0 && --held_up_steps_ > 0) return;
   if (since_blow_steps_ > kBlowSeen_s / settings_.period_s && oneIn(500))
     held_up_steps_ = 1 + static_cast<int>(random_() % 40);
-  told_ = finger_;
-  told_ns_ = now_ns_;
+  reported_ = finger_;
+  reported_ns_ = now_ns_;
 }
 
 ServoTarget Life::target(test::Injected& in, std::int64_t now_ns) {

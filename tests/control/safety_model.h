@@ -82,7 +82,7 @@ class SafetyModel {
     reason_ = FaultReason::kDeviceReturned;
     if (arm_again_) begin();
   }
-  // In the order of docs/safety.md: the first one that holds is told.
+  // In the order of docs/safety.md: the first one that holds is reported.
   FaultReason certainFault(const Injected& in) const {
     if (in.status == DeviceStatus::kLost) return FaultReason::kDeviceLost;
     if (in.status == DeviceStatus::kNotReady) return FaultReason::kNotReady;

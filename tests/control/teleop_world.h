@@ -21,7 +21,7 @@ enum class Person { kTouches, kPushes, kLetsGo, kRests };
 struct TeleopSetting {
   GripParameters grip = kFirmGrip;
   Person person = Person::kTouches;
-  bool control = true;     ///< false: the force of the robot is a plain one, and its reference goes where it is told
+  bool control = true;     ///< false: the force of the robot is a force alone, and its reference goes as commanded
   double delay_s = 0.1;    ///< of each way
   double jitter_s = 0.01;  ///< more than that, evenly
   double loss = 0.05;

@@ -96,7 +96,7 @@ TEST_P(Rates, EveryFaultReachesZeroForceWithinTwoMilliseconds) {
   }
 }
 
-// A window of speed that began before the blow tells half of it: whenever it comes, the next one tells all.
+// A window of speed that began before the blow shows half of it: whenever it comes, the next one shows all.
 TEST_P(Rates, ABlowIsFoundWheneverItComes) {
   for (int offset = 0; offset < 20; ++offset) {
     Bench bench = Bench::on(GetParam());
@@ -129,17 +129,17 @@ TEST_P(Rates, AnEncoderCountBetweenTwoCloseStepsIsNoBlow) {
   EXPECT_EQ(bench.state.safety, SafetyState::kOn);
 }
 
-// A driver whose thread is held up for 40 ms goes on telling the same place, and then where the hand has gone since.
+// A driver whose thread is held up for 40 ms goes on reporting the same place, and then where the hand has gone since.
 TEST_P(Rates, ADriverThatIsHeldUpLooksLikeNoBlowAndHidesNone) {
   for (const double way_m : {0.11, 0.13}) {  // in 40 ms, at 2.75 and 3.25 m/s
     Bench bench = Bench::on(GetParam());
     const std::int64_t begin_ns = bench.now_ns;
-    std::int64_t told_ns = begin_ns;
+    std::int64_t reported_ns = begin_ns;
     bench.run(0.1, [&](Seen& s) {
       const std::int64_t now_ns = bench.now_ns - begin_ns;
       const bool held_up = now_ns > 30'000'000 && now_ns < 70'000'000;
-      if (!held_up) told_ns = bench.now_ns;
-      s.sample.age_ns = bench.now_ns - told_ns;
+      if (!held_up) reported_ns = bench.now_ns;
+      s.sample.age_ns = bench.now_ns - reported_ns;
       s.sample.position.y() = now_ns < 70'000'000 ? 0 : way_m;
       s.target.proxy_D = s.sample.position;
     });
@@ -159,7 +159,7 @@ TEST_P(Rates, AStaleTargetGivesNoForceAtOnceAndAFaultAfterASecond) {
   EXPECT_EQ(bench.state.fault, FaultReason::kStaleTarget);
 }
 
-TEST_P(Rates, ADeviceThatReturnsIsToldAndArmsAgainOnlyWhereThatIsWanted) {
+TEST_P(Rates, ADeviceThatReturnsIsReportedAndArmsAgainOnlyWhereThatIsWanted) {
   const auto lose = [](Seen& s) { s.sample.status = DeviceStatus::kLost; };
   for (const bool arm_again : {false, true}) {
     Bench bench = Bench::on(GetParam());

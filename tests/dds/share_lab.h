@@ -20,7 +20,7 @@ struct LabLine {
 struct LabResult {
   double staleness_p50_ms = 0, staleness_p99_ms = 0, staleness_max_ms = 0;  ///< of the plate as it is shown
   double apart_ms = 0;      ///< from the last motion until it is at the same place to the bit
-  double playout_ms = 0;    ///< as the server tells it
+  double playout_ms = 0;    ///< as the server reports it
   double least_tank_J = 1;  ///< of the hand on the plate
   double moving_J = 0;      ///< that the motion has added, as booked
   double force_mean_N = 0;  ///< on that hand

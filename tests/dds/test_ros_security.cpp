@@ -75,7 +75,7 @@ class RosSecurity : public ::testing::Test {
   static std::unique_ptr<test::FastWriter> forces(FastPeer& peer) {
     return peer.writer(ddsTopic(kHand, "servo_cf"), test::kWrenchType, Reliability::kReliable);
   }
-  // How far to the right the hand is, as told.
+  // How far to the right the hand is, as published.
   static std::optional<double> newestOf(test::FastReader& reader) {
     std::optional<double> x_m;
     while (const auto payload = reader.take()) {
@@ -129,7 +129,7 @@ TEST_F(RosSecurity, PeersAreFoundWithoutMulticast) {
   expectConsoleMovesTheHand();
 }
 
-// The friend has no keys either: that the stranger hears and is heard by it shows that it is not deaf. The hand is told
+// The friend has no keys either: that the stranger hears and is heard by it shows that it is not deaf. The hand is sent
 // 250 times a second to the console meanwhile, so that there is something to hear.
 TEST_F(RosSecurity, WhoHasNoKeysOrForeignOnesReadsAndMovesNothing) {
   serve();
@@ -138,14 +138,14 @@ TEST_F(RosSecurity, WhoHasNoKeysOrForeignOnesReadsAndMovesNothing) {
     const auto stranger_reads = places(*stranger),
                friend_hears = comrade->reader(ddsTopic(kHand, "servo_cf"), test::kWrenchType, Reliability::kBestEffort);
     const auto stranger_writes = forces(*stranger),
-               friend_tells =
+               friend_sends =
                    comrade->writer(ddsTopic(kHand, "measured_cp"), test::kPoseType, Reliability::kBestEffort);
     const auto console = peer(kConsole, enclaveOf("keys", "console"));
     const auto console_reads = places(*console);
     int of_friend = 0, of_stranger = 0, of_hand = 0;
     waitFor([&] {
       stranger_writes->write(test::wrenchOf("", {1.5, 0, 0}));
-      friend_tells->write(test::poseOf("", {1000, 0, 0}));
+      friend_sends->write(test::poseOf("", {1000, 0, 0}));
       while (const auto x_m = newestOf(*stranger_reads)) {
         EXPECT_EQ(*x_m, 1000);
         ++of_friend;

@@ -173,9 +173,9 @@ TEST_F(RosServer, TheVelocityIsTheSlopeOfThePlaces) {
       places.row(i) = moment.finger_D.transpose();
     }
     const Vec3 slope = times.colPivHouseholderQr().solve(places).row(1).transpose();
-    const Vec3 told(twist.value[0], twist.value[1], twist.value[2]);
-    EXPECT_LT((told - slope).norm(), 1e-6);
-    if (told.norm() > 0.01) ++checked;
+    const Vec3 reported(twist.value[0], twist.value[1], twist.value[2]);
+    EXPECT_LT((reported - slope).norm(), 1e-6);
+    if (reported.norm() > 0.01) ++checked;
     return checked > 10;
   });
 }

@@ -137,8 +137,8 @@ TEST_F(GoldenBytes, OfWhatLeadsARobot) {
 }
 
 // What has come of the samples that the writer repeats: the next one of this topic, as others may still be under way.
-HandCommand told(RosProcess& ros, test::FastWriter& writer, const Payload& payload,
-                 RosInput input = RosInput::kServoCf) {
+HandCommand received(RosProcess& ros, test::FastWriter& writer, const Payload& payload,
+                     RosInput input = RosInput::kServoCf) {
   std::optional<HandCommand> command;
   test::waitFor([&] {
     writer.write(payload);
@@ -154,12 +154,12 @@ TEST(RosWire, TakesForcesAndPlacesOfReliableAndOfBestEffortWriters) {
   FastPeer peer(ownDomain());
   for (const Reliability reliability : {Reliability::kReliable, Reliability::kBestEffort}) {
     const auto force = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, reliability);
-    const HandCommand wrench = told(ros, *force, test::wrenchOf(rosFrame(hand), {1, 2, 3}));
+    const HandCommand wrench = received(ros, *force, test::wrenchOf(rosFrame(hand), {1, 2, 3}));
     EXPECT_EQ(wrench.hand, 0u);
     EXPECT_EQ(wrench.own_frame, 1u);
     EXPECT_EQ(wrench.value, (std::array<double, 3>{1, 2, 3}));
     const auto place = peer.writer(ddsTopic(hand, "servo_cp"), test::kPoseType, reliability);
-    const HandCommand pose = told(ros, *place, test::poseOf("", {-1, 0.5, 4}), RosInput::kServoCp);
+    const HandCommand pose = received(ros, *place, test::poseOf("", {-1, 0.5, 4}), RosInput::kServoCp);
     EXPECT_EQ(pose.own_frame, 1u);
     EXPECT_EQ(pose.value, (std::array<double, 3>{-1, 0.5, 4}));
   }
@@ -174,9 +174,9 @@ TEST(RosWire, TakesForceAndEnergyOfARobot) {
   const auto energies =
       peer.writer(ddsTopic(hand, "teleop/remote_energy_in"), test::kNumberType, Reliability::kReliable);
   ros.send(state());
-  const HandCommand force = told(ros, *forces, test::wrenchOf("", {1, -2, 3}), RosInput::kRemoteCf);
+  const HandCommand force = received(ros, *forces, test::wrenchOf("", {1, -2, 3}), RosInput::kRemoteCf);
   EXPECT_EQ(force.value, (std::array<double, 3>{1, -2, 3}));
-  const HandCommand energy = told(ros, *energies, test::energyOf(0.125), RosInput::kRemoteEnergy);
+  const HandCommand energy = received(ros, *energies, test::energyOf(0.125), RosInput::kRemoteEnergy);
   EXPECT_EQ(energy.value[0], 0.125);
   EXPECT_EQ(energy.own_frame, 1u);
   EXPECT_NE(energy.writer, 0u);
@@ -188,7 +188,7 @@ TEST(RosWire, MeetsProgramsThatAreKeptToThisMachine) {
   RosProcess ros(taskOf(hand));
   FastPeer peer(ownDomain(), test::Reach::kLoopback);
   const auto force = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, Reliability::kReliable);
-  EXPECT_EQ(told(ros, *force, test::wrenchOf("", {1, 2, 3})).value[2], 3);
+  EXPECT_EQ(received(ros, *force, test::wrenchOf("", {1, 2, 3})).value[2], 3);
   const auto poses = peer.reader(ddsTopic(hand, "measured_cp"), test::kPoseType, Reliability::kBestEffort);
   EXPECT_EQ(heard(ros, *poses).size(), test::poseOf(rosFrame(hand), {}).size());
 }
@@ -198,17 +198,17 @@ TEST(RosWire, SaysWhenAFrameIsAnotherOne) {
   RosProcess ros(taskOf(hand));
   FastPeer peer(ownDomain());
   const auto force = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, Reliability::kReliable);
-  EXPECT_EQ(told(ros, *force, test::wrenchOf("tool0", {1, 2, 3})).own_frame, 0u);
+  EXPECT_EQ(received(ros, *force, test::wrenchOf("tool0", {1, 2, 3})).own_frame, 0u);
 }
 
-// What cannot be a wrench is not told, and what comes after it is.
+// What cannot be a wrench is not sent on, and what comes after it is.
 TEST(RosWire, LivesThroughSamplesThatAreMalformed) {
   const std::string hand = ownHand();
   RosProcess ros(taskOf(hand));
   FastPeer peer(ownDomain());
   const auto writer = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, Reliability::kReliable);
   const Payload whole = test::wrenchOf("f", {1, 2, 3});
-  told(ros, *writer, whole);
+  received(ros, *writer, whole);
   std::vector<Payload> malformed;
   for (const std::size_t size : {4, 5, 8, 12, 16, 20, 40, 67})
     malformed.emplace_back(whole.begin(), whole.begin() + size);
@@ -236,13 +236,13 @@ TEST(RosWire, LivesThroughSamplesThatAreMalformed) {
   EXPECT_FALSE(ros.ended());
 }
 
-TEST(RosWire, NumbersThatAreNoneAreToldAsTheyCame) {
+TEST(RosWire, NumbersThatAreNoneAreSentOnAsTheyCame) {
   const std::string hand = ownHand();
   RosProcess ros(taskOf(hand));
   FastPeer peer(ownDomain());
   const auto force = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, Reliability::kReliable);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(std::isnan(told(ros, *force, test::wrenchOf("", {nan, 0, 0})).value[0]));
+  EXPECT_TRUE(std::isnan(received(ros, *force, test::wrenchOf("", {nan, 0, 0})).value[0]));
 }
 
 TEST(RosWire, AProgramOfAnotherVersionIsRefused) {

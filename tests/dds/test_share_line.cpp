@@ -128,7 +128,7 @@ TEST_F(KilledServer, LosesNothingHoweverOftenItIsKilledAndNoHandMoves) {
     killed = anna();
     watchUntil([&] { return counts().own_items == 0 && !bert_->bridge.view().peers.empty(); });
   }
-  EXPECT_TRUE(bert_->hasTold("server anna is lost"));
+  EXPECT_TRUE(bert_->hasReported("server anna is lost"));
 }
 
 }  // namespace

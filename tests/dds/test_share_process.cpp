@@ -53,7 +53,7 @@ void sendSurely(ShareProcess& process, const SharePacket& packet) {
   waitFor([&] { return process.send(packet); });
 }
 
-// The stream is heard only by those that are there; so it is told until it is.
+// The stream is heard only by those that are there; so it is sent until it is.
 void expectStream(ShareProcess& from, ShareProcess& to, std::uint64_t key) {
   Heard heard;
   waitFor([&] {
@@ -123,7 +123,7 @@ TEST(ShareProcessTest, AServerDoesNotHearItself) {
   EXPECT_TRUE(heard.items.empty() && heard.stream.empty());
 }
 
-TEST(ShareProcessTest, AKilledProcessIsTold) {
+TEST(ShareProcessTest, AKilledProcessIsReported) {
   const auto a = join("killed", 1);
   const std::string own = "/proc/" + std::to_string(getpid()) + "/task/" + std::to_string(getpid()) + "/children";
   FILE* const children = fopen(own.c_str(), "r");

@@ -29,7 +29,7 @@ constexpr int kHandEnd = 1, kRobotEnd = 2;
 
 std::string enclaveOf(const std::string& name) { return test::tempFile("teleop_keys") + "/enclaves/" + name; }
 
-// What Cyclone DDS is told: the device of the line, and its keys.
+// The settings of Cyclone DDS: the device of the line, and its keys.
 void writeSettings(const std::string& file) {
   const auto library = [](const char* name, const char* functions) {
     return std::string("<Library path=\"dds_security_") + name + "\" initFunction=\"init_" + functions +

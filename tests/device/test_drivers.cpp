@@ -145,7 +145,7 @@ TEST_P(DeviceContract, NoForceIsLeftWhenItIsClosed) {
   EXPECT_EQ(device_->read(bench_->arm().now_ns()).status == DeviceStatus::kOk, device_->hand() != nullptr);
 }
 
-TEST_P(DeviceContract, ButtonsAreTold) {
+TEST_P(DeviceContract, ButtonsAreReported) {
   openAndWait();
   if (device_->hand() != nullptr) return;  // a simulated arm has none
   bench_->arm().buttons = 1;

@@ -26,7 +26,7 @@ std::unique_ptr<Bench> benchOf(const std::string& name) {
   return nullptr;
 }
 
-TEST(ExamineDevice, ADeviceThatIsNotSeenIsToldWithWhatIs) {
+TEST(ExamineDevice, ADeviceThatIsNotSeenIsReportedWithWhatIs) {
   const Finding usb = findingOf(examineSurroundings("falcon", {kMouse}), "usb");
   EXPECT_FALSE(usb.good);
   EXPECT_EQ(usb.text, "expected 0403:cb48, seen: 046d:c077 Mouse");

@@ -33,7 +33,7 @@ class ForceDimension : public testing::Test {
   }
   int watchdog() const { return reinterpret_cast<int (*)()>(dlsym(fake_, "hlFakeWatchdog"))(); }
   void switchForcesOff(int cause) const { reinterpret_cast<void (*)(int)>(dlsym(fake_, "hlFakeForcesOff"))(cause); }
-  // The statuses of the next 300 ms, the same ones in a row told once.
+  // The statuses of the next 300 ms, the same ones in a row given once.
   std::vector<DeviceStatus> statuses() {
     std::vector<DeviceStatus> seen;
     for (int i = 0; i < 300; ++i) {
@@ -58,7 +58,7 @@ TEST_F(ForceDimension, WatchdogRunsFromTheFirstForceToTheEnd) {
   EXPECT_EQ(watchdog(), 0);
 }
 
-TEST_F(ForceDimension, ForcesThatItSwitchesOffAreToldAndComeBack) {
+TEST_F(ForceDimension, ForcesThatItSwitchesOffAreReportedAndComeBack) {
   for (const int cause : {2, 3}) {  // velocity, watchdog
     ASSERT_EQ(step(Vec3::Zero()), DeviceStatus::kOk);
     switchForcesOff(cause);

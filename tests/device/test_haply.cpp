@@ -109,7 +109,7 @@ TEST(Haply, NoServiceOrNoDeviceIsALineThatSaysWhatToDo) {
   EXPECT_NE(why.find(url), std::string::npos) << why;
 }
 
-TEST(Haply, ADeviceThatIsNotThereIsToldWithThoseThatAre) {
+TEST(Haply, ADeviceThatIsNotThereIsReportedWithThoseThatAre) {
   FakeArm arm, other;
   HaplyService service(std::vector<FakeArm*>{&arm, &other}, "3.5.0");
   const std::string why = failureOf("haply:" + service.url() + "/FFFF");

@@ -91,7 +91,7 @@ TEST(NamedDevices, OfOneNameOrOfOneDeviceAreRefused) {
   EXPECT_NE(namesOf({"hd", "sim", "x=hd"}).find("'device0' and 'x' are one device: hd and hd"), std::string::npos);
 }
 
-TEST(OpenDevice, EveryKindTellsOfItself) {
+TEST(OpenDevice, EveryKindDescribesItself) {
   const auto found = findDevices();
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].kind, "sim");

@@ -330,7 +330,7 @@ TEST(SimulatedDevice, JitterTakesReadingsLaterButNoLaterThanItSaysAndTheSameEver
   SimulatedDevice one(settings), two(settings);
   for (SimulatedDevice* device : {&one, &two}) {
     device->read(0);
-    device->place(Vec3::Zero(), {0.1, 0, 0});  // where it is tells when
+    device->place(Vec3::Zero(), {0.1, 0, 0});  // where it is shows when
   }
   double least_s = 1, most_s = 0, first_s = 0;
   for (std::int64_t i = 1; i < 1000; ++i) {

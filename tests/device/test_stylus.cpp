@@ -30,27 +30,27 @@ TEST(StylusReader, TheSpinOfAConstantTurnComesUpAsItsLowPassDoes) {
   const Vec3 axis = Vec3(1, -2, 0.5).normalized();
   constexpr double kRate_rad_s = 4, kStep_s = 1e-3;
   StylusReader reader;
-  Stylus told;
-  reader.read(told, 0);
+  Stylus reported;
+  reader.read(reported, 0);
   for (int n = 1; n <= 200; ++n) {
-    told.turned = about(kRate_rad_s * kStep_s * n, axis);
-    if (n % 2 == 0) told.turned.coeffs() = -told.turned.coeffs();  // the same orientation
-    const Stylus now = reader.read(told, n * kMillisecond_ns);
+    reported.turned = about(kRate_rad_s * kStep_s * n, axis);
+    if (n % 2 == 0) reported.turned.coeffs() = -reported.turned.coeffs();  // the same orientation
+    const Stylus now = reader.read(reported, n * kMillisecond_ns);
     const double part = kStep_s / (kStep_s + StylusReader::kSpinFilter_s);
     const Vec3 expected = kRate_rad_s * (1 - std::pow(1 - part, n)) * axis;
     ASSERT_LT((now.spin_rad_s - expected).norm(), 1e-9) << n;
-    ASSERT_LT(now.turned.angularDistance(told.turned), 1e-12);
+    ASSERT_LT(now.turned.angularDistance(reported.turned), 1e-12);
   }
 }
 
 TEST(StylusReader, WhatIsNoOrientationIsLeftOut) {
   StylusReader reader;
-  Stylus told;
-  told.turned.coeffs() = 7 * about(1, Vec3::UnitX()).coeffs();
-  told.gripper_rad = 0.25;
-  const Stylus good = reader.read(told, 0);
+  Stylus reported;
+  reported.turned.coeffs() = 7 * about(1, Vec3::UnitX()).coeffs();
+  reported.gripper_rad = 0.25;
+  const Stylus good = reader.read(reported, 0);
   EXPECT_NEAR(good.turned.norm(), 1, 1e-15);
-  Stylus bad = told;
+  Stylus bad = reported;
   for (const double part : {kNaN, std::numeric_limits<double>::infinity(), 0.0}) {
     bad.turned.coeffs().setConstant(part);
     bad.gripper_rad = bad.gripper_N = kNaN;
@@ -62,12 +62,12 @@ TEST(StylusReader, WhatIsNoOrientationIsLeftOut) {
 
 TEST(StylusReader, TimeThatStandsStillOrGoesBackMakesNoSpin) {
   StylusReader reader;
-  Stylus told;
-  reader.read(told, 5);
-  told.turned = about(1, Vec3::UnitY());
-  EXPECT_TRUE(reader.read(told, 5).spin_rad_s.isZero(0));
-  told.turned = about(2, Vec3::UnitY());
-  EXPECT_TRUE(reader.read(told, 4).spin_rad_s.isZero(0));
+  Stylus reported;
+  reader.read(reported, 5);
+  reported.turned = about(1, Vec3::UnitY());
+  EXPECT_TRUE(reader.read(reported, 5).spin_rad_s.isZero(0));
+  reported.turned = about(2, Vec3::UnitY());
+  EXPECT_TRUE(reader.read(reported, 4).spin_rad_s.isZero(0));
 }
 
 // From rest, about one axis: the angle left is a (1 + w t) exp(-w t).

@@ -39,7 +39,7 @@ class TouchHd : public testing::Test {
   TouchHdDevice device_;
 };
 
-TEST_F(TouchHd, HasTheFiguresThatTheLibraryTells) {
+TEST_F(TouchHd, HasTheFiguresThatTheLibraryReports) {
   const DeviceInfo& info = device_.info();
   EXPECT_EQ(info.name, "3D Systems Touch");
   EXPECT_EQ(info.force_max_N, 3.3);
@@ -70,7 +70,7 @@ TEST_F(TouchHd, WarmMotorsAreNoLossAndAFaultOfTheDeviceIs) {
 }
 
 // Until the scheduler calls for the first time nothing new is known; that it was lost before must not lose it again.
-TEST_F(TouchHd, IsNotLostAgainByWhatItToldBefore) {
+TEST_F(TouchHd, IsNotLostAgainByWhatItReportedBefore) {
   const auto starts = fake<unsigned int()>("hlFakeStarts");
   const unsigned int before = starts();
   fake<void(bool)>("hlFakeHoldUp")(true);

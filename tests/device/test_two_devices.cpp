@@ -53,7 +53,7 @@ class TwoDevices : public testing::TestWithParam<TwinKind> {
       std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
   }
-  // Whatever happens: a place that is told is the device's own, and a force that is there is its own or none.
+  // Whatever happens: a place that is reported is the device's own, and a force that is there is its own or none.
   void expectNoMixing(const std::array<DeviceSample, 2>& samples) {
     if (!settled_) return;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -81,7 +81,7 @@ class TwoDevices : public testing::TestWithParam<TwinKind> {
   bool settled_ = false;
 };
 
-TEST_P(TwoDevices, EachTellsItsOwnPlaceAndButtonsAndMakesItsOwnForce) {
+TEST_P(TwoDevices, EachReportsItsOwnPlaceAndButtonsAndMakesItsOwnForce) {
   openAll();
   for (int i = 0; i < 1500; ++i) {
     for (std::size_t device : {0U, 1U}) step(device);
@@ -202,7 +202,7 @@ TEST(TwoTouchHd, TheSchedulerGoesOnWhileOneIsOpenedAgain) {
   dlclose(fake);
 }
 
-TEST(TwoForceDimension, AnIndexThatIsNotThereIsToldWithHowManyThereAre) {
+TEST(TwoForceDimension, AnIndexThatIsNotThereIsReportedWithHowManyThereAre) {
   const auto bench = twinsOf("DhdByIndex");
   try {
     openDevice("dhd:2");

@@ -120,7 +120,7 @@ TEST(FleetStores, AFolderInThePlaceOfAResultIsNamed) {
   }
 }
 
-TEST(FleetStores, TellWhereTheyCannotWrite) {
+TEST(FleetStores, ReportWhereTheyCannotWrite) {
   EXPECT_THROW(FleetStore("/proc/none").keep(sample()), Error);
   EXPECT_THROW(FleetStore("/proc/none").keepFailure(kName, "x"), Error);
 }

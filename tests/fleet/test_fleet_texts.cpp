@@ -5,7 +5,7 @@
 namespace hl::test_fleet_texts {
 namespace {
 
-TEST(FleetTexts, TellCountRateAndTimeLeft) {
+TEST(FleetTexts, ReportCountRateAndTimeLeft) {
   EXPECT_EQ(fleetProgressText(0, 1000, 3), "0 of 1000 tasks");
   EXPECT_EQ(fleetProgressText(5, 1000, 0), "5 of 1000 tasks");
   EXPECT_EQ(fleetProgressText(800, 1000, 2), "800 of 1000 tasks, 400 a second, 0 s left");

@@ -61,7 +61,7 @@ std::string faultOfSubmitting() {
   return "none";
 }
 
-TEST(SlurmSweeps, TellWhatSlurmSays) {
+TEST(SlurmSweeps, ReportWhatSlurmSays) {
   putInPlaceOfSbatch("echo 'sbatch: error: no such partition' >&2; exit 1");
   EXPECT_EQ(faultOfSubmitting(), "Slurm takes no job: sbatch: error: no such partition");
   putInPlaceOfSbatch("echo hello");

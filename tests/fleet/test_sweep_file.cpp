@@ -47,7 +47,7 @@ std::string faultOf(const std::string& text) {
 
 const std::string kSources = "scenes = \"teapot\"\npaths = [\"a.csv\", \"b.csv\"]\n";
 
-std::string told(const SweepFile& sweep) {
+std::string optionsOf(const SweepFile& sweep) {
   std::string text;
   for (const SweepOptions& options : sweep.options) {
     for (const SweepOption& option : options) text += option.name + "=" + option.value + " ";
@@ -62,7 +62,7 @@ TEST(SweepFiles, SayScenesPathsOptionsAndSeeds) {
   EXPECT_EQ(sweep.paths, (std::vector<std::string>{"a.csv", "b.csv"}));
   EXPECT_EQ(sweep.seeds, (std::vector<std::int64_t>{3, 1}));
   EXPECT_TRUE(sweep.rows);
-  EXPECT_EQ(told(sweep), "radius=2 tremor=0.001 | ");
+  EXPECT_EQ(optionsOf(sweep), "radius=2 tremor=0.001 | ");
 }
 
 TEST(SweepFiles, NeedNoMoreThanASceneAndAPath) {
@@ -73,20 +73,20 @@ TEST(SweepFiles, NeedNoMoreThanASceneAndAPath) {
 }
 
 TEST(SweepFiles, TakeEveryValueOfAnOptionWithEveryOneOfTheOthers) {
-  EXPECT_EQ(told(read(kSources + "[options]\ntremor = [0.5, 1]\nradius = [1, 2]\n")),
+  EXPECT_EQ(optionsOf(read(kSources + "[options]\ntremor = [0.5, 1]\nradius = [1, 2]\n")),
             "radius=1 tremor=0.5 | radius=1 tremor=1 | radius=2 tremor=0.5 | radius=2 tremor=1 | ");
-  EXPECT_EQ(told(read(kSources + "[[options]]\nradius = 1\n[[options]]\ntremor = 1\ngrip = ['light', 'firm']\n")),
+  EXPECT_EQ(optionsOf(read(kSources + "[[options]]\nradius = 1\n[[options]]\ntremor = 1\ngrip = ['light', 'firm']\n")),
             "radius=1 | grip=light tremor=1 | grip=firm tremor=1 | ");
 }
 
 TEST(SweepFiles, KeepTheOrderOfKeysOutOfTheResult) {
-  EXPECT_EQ(told(read(kSources + "[options]\ntremor = 1\nradius = 1\n")),
-            told(read(kSources + "[options]\nradius = 1\ntremor = 1\n")));
+  EXPECT_EQ(optionsOf(read(kSources + "[options]\ntremor = 1\nradius = 1\n")),
+            optionsOf(read(kSources + "[options]\nradius = 1\ntremor = 1\n")));
 }
 
 TEST(SweepFiles, KeepEveryDigitOfANumber) {
-  EXPECT_EQ(told(read(kSources + "[options]\nradius = 0.1000000000000000055511151231257827\n")), "radius=0.1 | ");
-  EXPECT_EQ(told(read(kSources + "[options]\nradius = 0.30000000000000004\n")), "radius=0.30000000000000004 | ");
+  EXPECT_EQ(optionsOf(read(kSources + "[options]\nradius = 0.1000000000000000055511151231257827\n")), "radius=0.1 | ");
+  EXPECT_EQ(optionsOf(read(kSources + "[options]\nradius = 0.30000000000000004\n")), "radius=0.30000000000000004 | ");
 }
 
 TEST(SweepFiles, CountSeedsFromTheFirst) {
@@ -94,7 +94,7 @@ TEST(SweepFiles, CountSeedsFromTheFirst) {
             (std::vector<std::int64_t>{5, 6, 7}));
 }
 
-TEST(SweepFiles, TellTheLineOfAMistake) {
+TEST(SweepFiles, ReportTheLineOfAMistake) {
   struct Case {
     std::string text, fault;
   };

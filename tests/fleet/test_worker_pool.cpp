@@ -34,14 +34,14 @@ Outcome run(const std::vector<std::string>& tasks, int jobs) {
   return outcome;
 }
 
-struct Told {
+struct Written {
   int rows = -1, id = 0, parent = 0;
 };
 
-Told toldBy(std::size_t task) {
-  Told told;
-  std::ifstream(test::tempFile(std::to_string(task))) >> told.rows >> told.id >> told.parent;
-  return told;
+Written writtenBy(std::size_t task) {
+  Written written;
+  std::ifstream(test::tempFile(std::to_string(task))) >> written.rows >> written.id >> written.parent;
+  return written;
 }
 
 TEST(Workers, DoEveryTaskOnce) {
@@ -52,9 +52,9 @@ TEST(Workers, DoEveryTaskOnce) {
     std::map<int, int> by;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       EXPECT_EQ(outcome.failures.at(i), "");
-      EXPECT_EQ(toldBy(i).rows, i % 2);
-      EXPECT_EQ(toldBy(i).parent, getpid());
-      ++by[toldBy(i).id];
+      EXPECT_EQ(writtenBy(i).rows, i % 2);
+      EXPECT_EQ(writtenBy(i).parent, getpid());
+      ++by[writtenBy(i).id];
     }
     EXPECT_LE(by.size(), static_cast<std::size_t>(jobs));
     for (const auto& [id, count] : by) EXPECT_TRUE(kill(id, 0) != 0 && errno == ESRCH) << "left behind";

@@ -95,7 +95,7 @@ TEST(ClosestPoint, NeighboursGiveTheSameBitsOnASharedEdgeAndVertex) {
 
 TEST(ClosestPoint, WithinADistanceLeavesOutOnlyWhatIsFarther) {
   test::Random random(14);
-  int left_out = 0, told = 0;
+  int left_out = 0, found = 0;
   for (int i = 0; i < 50000; ++i) {
     const Primitive primitive = test::randomPrimitive(random, 1, 1, 0);
     const Vec3 p = random.inCube(1.5);
@@ -107,13 +107,13 @@ TEST(ClosestPoint, WithinADistanceLeavesOutOnlyWhatIsFarther) {
       ASSERT_GT(nearest.distance, distance * (1 - 1e-12));
       continue;
     }
-    ++told;
+    ++found;
     ASSERT_EQ(within.distance, nearest.distance);
     ASSERT_EQ(within.point, nearest.point);
     ASSERT_EQ(within.normal, nearest.normal);
   }
   EXPECT_GT(left_out, 1000);
-  EXPECT_GT(told, 1000);
+  EXPECT_GT(found, 1000);
 }
 
 TEST(ClosestPoint, AtDistanceZeroTheNormalIsStillAUnitVector) {

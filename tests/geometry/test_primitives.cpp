@@ -75,9 +75,9 @@ void expectThoseMadeOneByOne(const Mesh& mesh) {
     }
     ++i;
   }
-  for (const Box& told : {primitives.bounds(), Primitives(expected).bounds()}) {
-    EXPECT_EQ(told.min, bounds.min);
-    EXPECT_EQ(told.max, bounds.max);
+  for (const Box& box : {primitives.bounds(), Primitives(expected).bounds()}) {
+    EXPECT_EQ(box.min, bounds.min);
+    EXPECT_EQ(box.max, bounds.max);
   }
 }
 

@@ -160,7 +160,7 @@ TEST(SweepSphere, StartsInContactHitAtOnceWhenApproachingAndElseNever) {
 
 TEST(SweepSphere, WhatComesTooLateMayBeLeftOutButNothingElseChanges) {
   test::Random random(25);
-  int told = 0, left_out = 0;
+  int hits = 0, left_out = 0;
   for (int i = 0; i < test::cases(100000); ++i) {
     const Primitive primitive = test::randomPrimitive(random, 1, 1, 0);
     const Vec3 from = random.inCube(2), motion = primitive.vertex[0] + random.inCube(0.3) - from;
@@ -178,10 +178,10 @@ TEST(SweepSphere, WhatComesTooLateMayBeLeftOutButNothingElseChanges) {
       ASSERT_EQ(part.t, whole.t);
       ASSERT_EQ(part.normal, whole.normal);
     }
-    told += hit_part;
+    hits += hit_part;
     left_out += hit && !hit_part;
   }
-  EXPECT_GT(told, test::cases(1000));
+  EXPECT_GT(hits, test::cases(1000));
   EXPECT_GT(left_out, test::cases(1000));
 }
 

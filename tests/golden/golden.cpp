@@ -47,7 +47,7 @@ void write(const std::string& path, const KeptByName& kept) {
   }
 }
 
-// Compares, and tells what differs.
+// Compares, and reports what differs.
 class Judge {
  public:
   explicit Judge(const KeptByName& kept) : kept_(kept) {}

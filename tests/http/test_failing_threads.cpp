@@ -1,5 +1,5 @@
 // A failed allocation in any thread of a running server costs one piece of work: clients and pages are served on, the
-// servo makes its steps, and whoever watches is told.
+// servo makes its steps, and whoever watches is notified.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -95,7 +95,7 @@ class Page {
  public:
   explicit Page(std::uint16_t port) : port_(port) {}
 
-  // One message of what it is told.
+  // One message of what it is sent.
   bool work() try {
     if (!page_) page_.emplace(port_, test::Headers{{test::http::field::origin, origin()}}, "/viewer");
     if (page_->nextBytes()) return true;

@@ -79,7 +79,7 @@ TEST(RosMetrics, HaveEveryCount) {
     EXPECT_NE(out.text().find(std::string("\n") + line + "\n"), std::string::npos) << line;
 }
 
-TEST(ShareMetrics, TellOfTheWorldAndItsServers) {
+TEST(ShareMetrics, DescribeTheWorldAndItsServers) {
   ShareView view{"lab", "anna", {}};
   view.starts = 3;
   view.counts.items = 12;

@@ -324,7 +324,7 @@ TEST(WebSocketSession, AClientThatOnlyListensIsKept) {
   EXPECT_EQ(served.host.alive(), 1);
 }
 
-TEST(WebSocketSession, WithoutRoomAClientIsToldSo) {
+TEST(WebSocketSession, WithoutRoomAClientIsRefusedWithTheReason) {
   Served served({}, 100, 1);
   Welcomed first(served);
   PlainClient second(served.port());

@@ -31,7 +31,7 @@ TEST(Workers, BringBackTheResultOrWhatIsThrown) {
       thrown = true;
     }
   };
-  asio::co_spawn(context, ask(), tellEnd);
+  asio::co_spawn(context, ask(), reportEnd);
   context.run();
   EXPECT_EQ(result, 42);
   EXPECT_TRUE(thrown);

@@ -55,7 +55,7 @@ TEST(GltfHaptics, FrictionReachesTheTrianglesOfItsNode) {
   EXPECT_EQ(materialAt(model, 10).dynamic_friction, 0.7);
 }
 
-TEST(GltfHaptics, NodesThatCannotBeToldApartAreLeftOutWithAWarning) {
+TEST(GltfHaptics, NodesThatCannotBeDistinguishedAreLeftOutWithAWarning) {
   const Model model = loadModel(
       fileWith("same.gltf", gltf(R"(,"name":"a")" + collider(0), R"(,"name":"a")" + collider(1), "", kPhysics)));
   EXPECT_TRUE(model.triangle_materials.empty());

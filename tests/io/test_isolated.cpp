@@ -348,7 +348,7 @@ TEST(Isolated, TimeOfTheProcessorIsBounded) {
   EXPECT_NE(refusalOf(spin, limits).find("takes too long"), std::string::npos);
 }
 
-TEST(Isolated, SoIsAllTimeEvenOfOneThatTellsOfProgress) {
+TEST(Isolated, SoIsAllTimeEvenOfOneThatReportsProgress) {
   const auto chat = [](const Report& report) -> Model {
     for (;; usleep(1000)) report(0.5);
   };
@@ -428,7 +428,7 @@ TEST(Isolated, TheReaderCanOnlyRead) {
   EXPECT_EQ(refusal, "it: done:");
 }
 
-// As a series of DICOM needs it. An iterator tells what goes wrong by throwing.
+// As a series of DICOM needs it. An iterator reports what goes wrong by throwing.
 TEST(Isolated, TheReaderListsFolders) {
   const std::string file = fileWith("listed", "something");
   const auto list = [&](const Report&) -> Model {

@@ -57,7 +57,7 @@ TEST(NpzFiles, OfTheSameContentAreTheSameBytes) {
   EXPECT_EQ(written("b.npz"), written("c.npz"));
 }
 
-TEST(NpzFiles, TellWhereTheyCannotBeWritten) {
+TEST(NpzFiles, ReportWhereTheyCannotBeWritten) {
   EXPECT_THROW(NpzFile("/nonexistent/a.npz"), Error);
   EXPECT_THROW(
       {

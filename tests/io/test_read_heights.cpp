@@ -170,7 +170,7 @@ TEST(ReadHeights, SamplesOfOtherKindsAreKeptAsTheNearest) {
   expectReadAs<double>(SampleKind::kFloat32, SAMPLEFORMAT_IEEEFP);
 }
 
-TEST(ReadHeights, WhatATiffSaysWronglyIsTold) {
+TEST(ReadHeights, WhatATiffSaysWronglyIsReported) {
   const auto warningsOf = [](const TiffForm& form) {
     return loadModelScene(tiffWith<std::int16_t>("w.tif", form, 30, 20)).model.warnings;
   };

@@ -126,7 +126,7 @@ TEST(ReadNifti, EveryTypeInBothByteOrders) {
   expectType<std::uint32_t>(768, SampleKind::kFloat32);
 }
 
-TEST(ReadNifti, RoundingIsTold) {
+TEST(ReadNifti, RoundingIsReported) {
   NiftiFile file;
   file.type(8);
   std::string bytes = file.with<std::int32_t>();

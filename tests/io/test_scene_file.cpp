@@ -722,40 +722,40 @@ TEST(SceneFile, ErrorsNameTheLine) {
 }
 
 // In the words of this file's users: those of the program that reads JSON are for programmers.
-TEST(SceneFile, AValueOfAnotherKindIsToldWithWhatToWrite) {
-  const auto told = [](const std::string& object, const std::string& more = "") {
+TEST(SceneFile, AValueOfAnotherKindIsReportedWithWhatToWrite) {
+  const auto fault = [](const std::string& object, const std::string& more = "") {
     return afterFile(refusalOf("{\"objects\": [{\"builtin\": \"sphere:100\"," + object + "}]" + more + "}"));
   };
   const std::string at = ":1: objects[0].";
-  EXPECT_EQ(told(R"("material": {"shade": "smooth"})"), at + "material.shade: \"smooth\" is none of SMOOTH, FLAT");
-  EXPECT_EQ(told(R"("material": {"shade": ["FLAT"]})"), at + "material.shade: it must not be a list");
-  EXPECT_EQ(told(R"("material": {"stiffness": {}})"), at + "material: one of its values must not be an object");
-  EXPECT_EQ(told(R"("material": {"stiffness": "high"})"), at + "material.stiffness: \"high\" is not a number");
-  EXPECT_EQ(told(R"("primitives": {})"),
+  EXPECT_EQ(fault(R"("material": {"shade": "smooth"})"), at + "material.shade: \"smooth\" is none of SMOOTH, FLAT");
+  EXPECT_EQ(fault(R"("material": {"shade": ["FLAT"]})"), at + "material.shade: it must not be a list");
+  EXPECT_EQ(fault(R"("material": {"stiffness": {}})"), at + "material: one of its values must not be an object");
+  EXPECT_EQ(fault(R"("material": {"stiffness": "high"})"), at + "material.stiffness: \"high\" is not a number");
+  EXPECT_EQ(fault(R"("primitives": {})"),
             ":1: objects[0]: of the values that exclude each other there is another one already");
-  EXPECT_EQ(told(R"("body": {"velocityMS": 3})"),
+  EXPECT_EQ(fault(R"("body": {"velocityMS": 3})"),
             at + R"(body.velocityMS: 3 must be an object: {"x": .., "y": .., "z": ..})");
-  EXPECT_EQ(told(R"("body": {"shape": "CONE"})"),
+  EXPECT_EQ(fault(R"("body": {"shape": "CONE"})"),
             at + R"(body.shape: "CONE" is none of HULL, BOX, BALL, CAPSULE, CYLINDER, PARTS)");
   for (const char* word : {"yes", "true", "TRUE", "0", "no"})
-    EXPECT_EQ(told(R"("body": {"fixed": ")" + std::string(word) + "\"}"),
+    EXPECT_EQ(fault(R"("body": {"fixed": ")" + std::string(word) + "\"}"),
               at + "body.fixed: it must be true or false, without quotation marks");
   EXPECT_EQ(refusalOf(R"({"objects": [{"builtin": "sphere:100", "name": "yes", "body": {"fixed": true}}]})"),
             "accepted");
-  EXPECT_EQ(told(R"("body": {})", R"(, "units": 0)"), ":1: units must be between 1e-09 and 1e+09");
-  EXPECT_EQ(told(R"("material": {"stifness": 1})"), at + "material.stifness: there is no such name");
-  EXPECT_EQ(told(R"("body": {})", R"(, "gravityMS2": -9.81)"),
+  EXPECT_EQ(fault(R"("body": {})", R"(, "units": 0)"), ":1: units must be between 1e-09 and 1e+09");
+  EXPECT_EQ(fault(R"("material": {"stifness": 1})"), at + "material.stifness: there is no such name");
+  EXPECT_EQ(fault(R"("body": {})", R"(, "gravityMS2": -9.81)"),
             R"(:1: gravityMS2: -9.81 must be an object: {"x": .., "y": .., "z": ..})");
-  EXPECT_EQ(told(R"("body": {})", R"(, "joints": [{"kind": "HINGE", "axis": {"y": 1}}])"),
+  EXPECT_EQ(fault(R"("body": {})", R"(, "joints": [{"kind": "HINGE", "axis": {"y": 1}}])"),
             ":1: joints[0].bodyA must name a body");
 }
 
 TEST(SceneFile, ANameThatIsThereTwiceIsRefusedAndNamed) {
-  const auto told = [](const std::string& json) { return afterFile(refusalOf(json)); };
-  EXPECT_EQ(told("{\"objects\": [{\"builtin\": \"plane:2\",\n\"builtin\": \"plane:2\"}]}"),
+  const auto fault = [](const std::string& json) { return afterFile(refusalOf(json)); };
+  EXPECT_EQ(fault("{\"objects\": [{\"builtin\": \"plane:2\",\n\"builtin\": \"plane:2\"}]}"),
             ":2: the name \"builtin\" is there twice in one object");
-  EXPECT_EQ(told(R"({"units": 1, "units": 1, "objects": []})"), ":1: the name \"units\" is there twice in one object");
-  EXPECT_EQ(told(R"({"a\nb": 1, "a\nb": 1})").find('\n'), std::string::npos);
+  EXPECT_EQ(fault(R"({"units": 1, "units": 1, "objects": []})"), ":1: the name \"units\" is there twice in one object");
+  EXPECT_EQ(fault(R"({"a\nb": 1, "a\nb": 1})").find('\n'), std::string::npos);
   EXPECT_EQ(refusalOf(R"({"objects": [{"builtin": "plane:2"}, {"builtin": "plane:2"}], "units": 1})"), "accepted");
 }
 

@@ -277,7 +277,7 @@ TEST(X3dBodies, StrangeFieldsAreWarnings) {
   }
 }
 
-TEST(X3dBodies, WhatIsLeftOutIsTold) {
+TEST(X3dBodies, WhatIsLeftOutIsReported) {
   const std::string joint = "<BallJoint><RigidBody USE='a' containerField='body1'/>";
   for (const auto& [nodes, warning] : std::vector<std::pair<std::string, std::string>>{
            {"<RigidBody/>", "it has no shape"},

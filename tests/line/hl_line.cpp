@@ -1,4 +1,4 @@
-// hl_line: a bad line between network namespaces, by user-space alone: README.md tells how to use it.
+// hl_line: a bad line between network namespaces, by user-space alone: README.md says how to use it.
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -26,7 +26,7 @@ std::string answer(Hub& hub, const std::string& text, int ends) {
   try {
     const Order order = orderOf(text, ends);
     hub.obey(order);
-    return (order.kind == OrderKind::kCount ? hub.told() : "") + "ok\n";
+    return (order.kind == OrderKind::kCount ? hub.describe() : "") + "ok\n";
   } catch (const Error& error) {
     return std::string("error: ") + error.what() + '\n';
   }
@@ -117,7 +117,7 @@ void serve(int count, std::uint64_t seed, const std::string& order) {
   std::puts("ready");
   std::fflush(stdout);
   run(hub, ends, signals);
-  std::fputs(hub.told().c_str(), stdout);
+  std::fputs(hub.describe().c_str(), stdout);
 }
 
 }  // namespace

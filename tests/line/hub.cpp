@@ -87,7 +87,7 @@ std::int64_t Hub::due_ns() const {
   return due_ns;
 }
 
-std::string Hub::told() const {
+std::string Hub::describe() const {
   std::ostringstream out;
   eachLink([&](int from, int to) {
     const LinkCounts n = counts(from, to);

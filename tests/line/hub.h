@@ -33,7 +33,7 @@ class Hub {
 
   LinkCounts counts(int from, int to) const { return links_[index(from, to)].counts(); }
   /// A line of text for each direction.
-  std::string told() const;
+  std::string describe() const;
 
  private:
   std::size_t index(int from, int to) const;

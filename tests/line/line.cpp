@@ -91,19 +91,19 @@ std::optional<std::string> Line::readLine() {
 std::string Line::say(const std::string& order) {
   const std::string text = order + '\n';
   send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
-  std::string told;
+  std::string answer;
   for (auto line = readLine(); line != "ok"; line = readLine()) {
     if (!line) throw Error("hl_line has ended");
     if (line->starts_with("error: ")) throw Error(line->substr(7));
-    told += *line + '\n';
+    answer += *line + '\n';
   }
-  return told;
+  return answer;
 }
 
 LinkCounts Line::counts(int from, int to) {
-  std::istringstream told(say("count"));
+  std::istringstream answer(say("count"));
   const std::string wanted = std::to_string(from) + " -> " + std::to_string(to) + ": taken ";
-  for (std::string line; std::getline(told, line);) {
+  for (std::string line; std::getline(answer, line);) {
     if (!line.starts_with(wanted)) continue;
     std::istringstream rest(line.substr(wanted.size()));
     LinkCounts n;

@@ -18,9 +18,9 @@ double number(const std::string& name, const std::string& text, double least, do
   const char* const last = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data(), last, value);
   if (error != std::errc() || end != last || !(value >= least && value <= most)) {
-    std::ostringstream told;
-    told << name << " wants a number from " << least << " to " << most << ", not '" << text << "'";
-    throw Error(told.str());
+    std::ostringstream message;
+    message << name << " wants a number from " << least << " to " << most << ", not '" << text << "'";
+    throw Error(message.str());
   }
   return value;
 }

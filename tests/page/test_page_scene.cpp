@@ -1,4 +1,4 @@
-// What pages are told of a scene that changes: each mesh once, layouts only when something comes or goes, what moves in
+// What pages are sent of a scene that changes: each mesh once, layouts only when something comes or goes, what moves in
 // the states, and what may be forgotten.
 #include "page/page_scene.h"
 
@@ -337,7 +337,7 @@ TEST_F(PageSceneTest, AnEmptySceneIsALayoutWithNothingInIt) {
   EXPECT_FALSE(messages[0].layout().has_bounds_min());
 }
 
-TEST_F(PageSceneTest, WhatIsTouchedIsTold) {
+TEST_F(PageSceneTest, WhatIsTouchedIsReported) {
   show(makeSnapshot({instanceOf(3, small_), instanceOf(7, small_)}));
   const proto::State state = stateAt(0, {{7, 1, 70, 0}, {5, 1, 50, 0}, {7, 1, 70, 0}});
   ASSERT_EQ(state.touched_size(), 1) << "once each, and only what is in the layout";
@@ -368,7 +368,7 @@ TEST_F(PageSceneTest, TheSameShapeWithAnotherTextureIsAnotherMesh) {
   EXPECT_NE(layout.placed(0).mesh(), layout.placed(3).mesh());
 }
 
-TEST_F(PageSceneTest, MaterialsAreToldByNumberAndAgainWhenTheyChange) {
+TEST_F(PageSceneTest, MaterialsAreSentByNumberAndAgainWhenTheyChange) {
   Model model = makeBuiltinScene("plane:8");
   model.materials.resize(2);
   model.materials[1].static_friction = 0.5;
@@ -416,8 +416,8 @@ TEST_F(PageSceneTest, ASceneWithANewMeshInEveryFrameIsShown) {
   EXPECT_EQ(shown, 3);
 }
 
-// A page without a mesh is told why, sees the rest, and goes on with the next scene.
-TEST(PageSceneMemory, AMeshThatDoesNotFitIsToldAndTheRestIsShown) {
+// A page without a mesh gets the reason, sees the rest, and goes on with the next scene.
+TEST(PageSceneMemory, AMeshThatDoesNotFitIsReportedAndTheRestIsShown) {
   const MemoryBudget budget(10'000);
   PageScene scene(budget);
   PageMemory page = scene.open();
@@ -449,7 +449,7 @@ TEST(PageSceneMemory, AMeshThatDoesNotFitIsToldAndTheRestIsShown) {
 }
 
 // Protobuf writes no message of 2 GB.
-TEST(PageMeshes, AMeshBeyondTheLargestMessageIsToldNotSentEmpty) {
+TEST(PageMeshes, AMeshBeyondTheLargestMessageIsReportedNotSentEmpty) {
   PageMeshes meshes({}, 5000);
   const auto snapshot = makeSnapshot({instanceOf(1, plane(8)), instanceOf(2, plane(2000))});
   const std::vector<std::uint32_t> numbers = meshes.numbersOf(*snapshot, 0);

@@ -1,4 +1,4 @@
-// What the page is told of textures: which triangles show which image.
+// What the page is sent of textures: which triangles show which image.
 #include "page/surface_images.h"
 
 #include <gtest/gtest.h>

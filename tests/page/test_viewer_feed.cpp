@@ -1,4 +1,4 @@
-// What pages are told of a world that several servers share.
+// What pages are sent of a world that several servers share.
 #include "page/viewer_feed.h"
 
 #include <gtest/gtest.h>

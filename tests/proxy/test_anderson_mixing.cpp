@@ -22,7 +22,7 @@ int passesUntilStill(const Mat3& shrink, const Vec3& centre, Vec3 x) {
   return 100;
 }
 
-// Two differences tell all of a linear map of the plane: the third guess is the fixed point, and the fourth pass finds
+// Two differences give all of a linear map of the plane: the third guess is the fixed point, and the fourth pass finds
 // it still; with almost parallel differences the fifth. Without mixing these take 12 on average.
 TEST(AndersonMixing, FindsTheFixedPointOfALinearMapOfThePlaneInFourPassesOrFive) {
   std::mt19937 random(3);

@@ -62,7 +62,7 @@ TEST(CurvatureStep, OffARidgeItGoesInStrides) {
 }
 
 // What a finger near a single point, the end of a wire or a wire itself asks of one tick, wherever the proxy was
-// before: about a sphere, at the end of a cylinder, and about a cylinder. No plane tells how far round the proxy must
+// before: about a sphere, at the end of a cylinder, and about a cylinder. No plane gives how far round the proxy must
 // go.
 TEST(CurvatureStep, RoundAPointAndAWireItTakesFewSteps) {
   test::Random random(1109);

@@ -1,4 +1,4 @@
-// The names of the ways in which a tick ends: metrics, states and hl trace tell them apart by these alone.
+// The names of the ways in which a tick ends: metrics, states and hl trace distinguish them by these alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>

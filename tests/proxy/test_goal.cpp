@@ -17,7 +17,7 @@ TEST(Goal, IsTheFingerUntilItIsSetElsewhere) {
 }
 
 // 1e12 m away a millimetre is below the last bit of the distance.
-TEST(Goal, TheNearerOfTwoPlacesIsToldHoweverFarItIs) {
+TEST(Goal, TheNearerOfTwoPlacesIsReportedHoweverFarItIs) {
   const Goal far(Vec3(1e12, 0, 0));
   EXPECT_TRUE(far.nearer(Vec3(1e-3, 0, 0), Vec3::Zero()));
   EXPECT_FALSE(far.nearer(Vec3::Zero(), Vec3(1e-3, 0, 0)));

@@ -270,7 +270,7 @@ TEST(SurfaceRules, WhatSettlesUnderShadingOrFrictionMovesNoMore) {
   EXPECT_GT(shaded.goes_on, 10) << "nor does it always settle";
 }
 
-TEST(SurfaceRules, AContactIsToldWithItsStiffnessAndFriction) {
+TEST(SurfaceRules, AContactIsReportedWithItsStiffnessAndFriction) {
   ProxySettings settings = settingsOf();
   settings.surfaces.static_friction = 0.4;
   settings.surfaces.stiffness = 1.7;

@@ -44,15 +44,15 @@ Model pressed(Model model, double by) {
   return model;
 }
 
-// A mesh that bends from the fifth second of the clock to the ninth; `told`: its client says how it yields.
-std::shared_ptr<const Snapshot> bendingSceneOf(const std::string& name, bool told) {
+// A mesh that bends from the fifth second of the clock to the ninth; `given`: its client says how it yields.
+std::shared_ptr<const Snapshot> bendingSceneOf(const std::string& name, bool given) {
   constexpr std::int64_t kBegin_ns = 5'000'000'000, kEnd_ns = 9'000'000'000;
   Instance instance;
   instance.key = 1;
   const auto from = sceneOf(name)->instances[0].shape;
   instance.shape = makeShape(pressed(from->model, 0.9), *from);
   instance.mesh_motion = std::make_shared<MeshMotion>(MeshTransition(from, instance.shape, kBegin_ns, kEnd_ns));
-  if (told) {
+  if (given) {
     instance.compliance =
         std::make_shared<ComplianceMotion>(ComplianceMotion(Compliance{0.002, 0.001, Vec3(0.1, 0.3, -0.2)})
                                                .then({0.004, 0.004, Vec3(0, 1, 0)}, kBegin_ns, kEnd_ns));
@@ -254,7 +254,7 @@ TEST_F(Recording, OneBitChangedIsFoundWhereItIs) {
   EXPECT_GE(tick.difference->number, 1500u);
 }
 
-TEST_F(Recording, WhatIsMissingIsToldAndTheServoGoesOnAfterIt) {
+TEST_F(Recording, WhatIsMissingIsReportedAndTheServoGoesOnAfterIt) {
   { Loops(settings()).run(3000); }
   const std::string changed = (folder.path() / "b.hlr").string();
   std::uint64_t steps = 0, ticks = 0, steps_after = 0, ticks_after = 0;
@@ -325,7 +325,7 @@ TEST_F(Recording, EachFieldOutOfItsRangeIsRefusedInOneLine) {
       if (block.has_start()) change<ProxySettings>(*block.mutable_start()->mutable_proxy(), it);
     };
   };
-  const auto told = [](const std::function<void(TickContext&)>& it) -> Change {
+  const auto commands = [](const std::function<void(TickContext&)>& it) -> Change {
     return [it](auto& block) {
       if (block.has_ticks()) change<TickContext>(*block.mutable_ticks()->mutable_commands(0)->mutable_values(), it);
     };
@@ -346,14 +346,14 @@ TEST_F(Recording, EachFieldOutOfItsRangeIsRefusedInOneLine) {
       {"iteration_cap", proxy([](auto& settings) { settings.iteration_cap = 0; })},
       {"iteration_cap", proxy([](auto& settings) { settings.iteration_cap = 2'000'000'000; })},
       {"the proxy", proxy([](auto& settings) { settings.shading = static_cast<ShadingPasses>(9); })},
-      {"period_s", told([](auto& context) { context.spring.period_s = 0; })},
-      {"period_s", told([](auto& context) { context.spring.period_s = HUGE_VAL; })},
-      {"stiffness_N_m", told([](auto& context) { context.spring.stiffness_N_m = std::nan(""); })},
-      {"stiffness", told([](auto& context) { context.commands.surfaces.stiffness = 2; })},
-      {"viscosity_Ns_m", told([](auto& context) { context.commands.surfaces.viscosity_Ns_m = -1; })},
-      {"radius", told([](auto& context) { context.commands.radius_W = 0; })},
-      {"workspace", told([](auto& context) { context.commands.workspace.world_per_device = 0; })},
-      {"the settings of a tick", told([](auto& context) { context.spring.ledger = static_cast<LedgerMode>(7); })},
+      {"period_s", commands([](auto& context) { context.spring.period_s = 0; })},
+      {"period_s", commands([](auto& context) { context.spring.period_s = HUGE_VAL; })},
+      {"stiffness_N_m", commands([](auto& context) { context.spring.stiffness_N_m = std::nan(""); })},
+      {"stiffness", commands([](auto& context) { context.commands.surfaces.stiffness = 2; })},
+      {"viscosity_Ns_m", commands([](auto& context) { context.commands.surfaces.viscosity_Ns_m = -1; })},
+      {"radius", commands([](auto& context) { context.commands.radius_W = 0; })},
+      {"workspace", commands([](auto& context) { context.commands.workspace.world_per_device = 0; })},
+      {"the settings of a tick", commands([](auto& context) { context.spring.ledger = static_cast<LedgerMode>(7); })},
       {"no clock", ticks([](auto& message) { message.set_time_ns(0, INT64_MAX); })},
       {"no clock", ticks([](auto& message) { message.set_time_ns(message.time_ns_size() - 1, INT64_MIN); })},
       {"order", steps([](auto& message) { message.set_first(message.first() == 0 ? 0 : 1); })},
@@ -379,7 +379,7 @@ TEST_F(Recording, EachFieldOutOfItsRangeIsRefusedInOneLine) {
 }
 
 // The rings hold 8192 steps, six seconds and what rounding up has given.
-TEST_F(Recording, ARecorderThatGetsNoTimeTellsWhatItHasMissed) {
+TEST_F(Recording, ARecorderThatGetsNoTimeReportsWhatItHasMissed) {
   {
     Loops loops(settings(), false);
     loops.run(9000);
@@ -559,10 +559,10 @@ TEST_F(Recording, TheTapsDoNotAllocate) {
 TEST_F(Recording, ItEndsAtItsSizeAndTheSessionGoesOn) {
   RecorderSettings small = settings();
   small.most_bytes = 200'000;
-  std::string told;
+  std::string reported;
   std::atomic<bool> ended{false};
-  small.tell = [&](const std::string&, const std::string& line) {
-    told = line;
+  small.report = [&](const std::string&, const std::string& line) {
+    reported = line;
     ended = true;
   };
   {
@@ -570,7 +570,7 @@ TEST_F(Recording, ItEndsAtItsSizeAndTheSessionGoesOn) {
     while (!ended) loops.run(100);
     loops.run(1000);
   }
-  EXPECT_NE(told.find("200000 bytes are reached"), std::string::npos) << told;
+  EXPECT_NE(reported.find("200000 bytes are reached"), std::string::npos) << reported;
   const ReplayReport report = replay(path);
   EXPECT_FALSE(report.difference);
   EXPECT_EQ(report.end, "200000 bytes are reached");
@@ -608,8 +608,8 @@ TEST_F(Recording, OfAKilledProgramIsReadable) {
 TEST_F(Recording, AFaultLeavesABlackBoxThatReplays) {
   RecorderSettings box;
   box.black_box_folder = (folder.path() / "boxes").string();
-  std::string told;
-  box.tell = [&](const std::string&, const std::string& line) { told = line; };
+  std::string reported;
+  box.report = [&](const std::string&, const std::string& line) { reported = line; };
   {
     Loops loops(box);
     loops.run(990);
@@ -617,7 +617,7 @@ TEST_F(Recording, AFaultLeavesABlackBoxThatReplays) {
     loops.run(8);
   }
   ASSERT_EQ(boxes().size(), 1u);
-  EXPECT_NE(told.find(boxes()[0].string()), std::string::npos) << told;
+  EXPECT_NE(reported.find(boxes()[0].string()), std::string::npos) << reported;
   SafetyState last{};
   const ReplayReport report =
       replay(boxes()[0].string(), [&](double, const ServoRecord& step) { last = step.out.safety; });

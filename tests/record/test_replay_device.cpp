@@ -111,12 +111,12 @@ TEST_F(Replayed, ADeviceThatThereIsNotIsRefusedInOneLine) {
   }
 }
 
-TEST_F(Replayed, TimesThatNoClockTellsAreRefused) {
+TEST_F(Replayed, TimesThatNoClockGivesAreRefused) {
   record(3, pen(), std::int64_t{1} << 61);
   EXPECT_THROW(openAnyDevice("replay:" + path), Error);
 }
 
-TEST_F(Replayed, WhatCanNotBeReplayedIsToldInOneLine) {
+TEST_F(Replayed, WhatCanNotBeReplayedIsReportedInOneLine) {
   EXPECT_THROW(makeAnyDevice("replay:"), Error);
   EXPECT_THROW(openAnyDevice("replay:" + path), Error);
   EXPECT_THROW(makeAnyDevice("replays"), Error);

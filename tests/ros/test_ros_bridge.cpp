@@ -1,4 +1,4 @@
-// Hands as a bridge tells them, and what they feel of what comes: with another program in the place of hl-ros.
+// Hands as a bridge publishes them, and what they feel of what comes: with another program in the place of hl-ros.
 #include "ros/ros_bridge.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ struct Wire {
   bool full = false, ended = false;
   int refusals = 0;  // of starting again
 
-  std::vector<RosHandState> told() {
+  std::vector<RosHandState> published() {
     const std::lock_guard lock(mutex);
     return states;
   }
@@ -106,12 +106,12 @@ class RosBridgeTest : public ::testing::Test {
                     TeleopOfHand{1, {2, 0.5, std::nullopt, 0.5}}};  // without a clutch
 };
 
-TEST_F(RosBridgeTest, TellsBothHandsOverAndOverWithTheirTimes) {
+TEST_F(RosBridgeTest, PublishesBothHandsOverAndOverWithTheirTimes) {
   const std::int64_t begin_ns = std::chrono::system_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
   std::array<std::vector<RosHandState>, 2> of;
   test::waitFor([&] {
     of = {};
-    for (const RosHandState& state : wire_.told()) of.at(state.hand).push_back(state);
+    for (const RosHandState& state : wire_.published()) of.at(state.hand).push_back(state);
     return of[0].size() >= 20 && of[1].size() >= 20;
   });
   for (const auto& states : of) {
@@ -125,7 +125,7 @@ TEST_F(RosBridgeTest, TellsBothHandsOverAndOverWithTheirTimes) {
   EXPECT_TRUE(bridge_.counts().running);
 }
 
-TEST_F(RosBridgeTest, AForceIsFeltByItsHandAndToldAndEndsByItself) {
+TEST_F(RosBridgeTest, AForceIsFeltByItsHandAndPublishedAndEndsByItself) {
   test::waitFor([&] {
     say(1, RosInput::kServoCf, {0, 0, 1.25});
     return (forceOf(1) - Vec3(0, 0, 1.25)).norm() < 1e-9;
@@ -133,7 +133,7 @@ TEST_F(RosBridgeTest, AForceIsFeltByItsHandAndToldAndEndsByItself) {
   EXPECT_TRUE(forceOf(0).isZero(0));
   test::waitFor([&] {
     say(1, RosInput::kServoCf, {0, 0, 1.25});
-    const RosHandState last = wire_.told().back();
+    const RosHandState last = wire_.published().back();
     forceOf(1);
     return last.hand == 1 && std::abs(last.force[2] - 1.25) < 1e-9;
   });
@@ -155,7 +155,7 @@ TEST_F(RosBridgeTest, ASetPointPullsToItsPlace) {
 TEST_F(RosBridgeTest, AHandLeadsARobotByItsWay) {
   const auto farthest_m = [&] {
     double most_m = 0;
-    for (const RosHandState& state : wire_.told()) {
+    for (const RosHandState& state : wire_.published()) {
       EXPECT_EQ(state.leads_robot, state.hand);
       most_m = std::max(most_m, std::abs(state.set_point[0]));
     }

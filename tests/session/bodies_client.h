@@ -118,7 +118,7 @@ class BodiesClient {
     return takeUntil(
         *session_, [this](const proto::ServerReply& reply) { remember(reply); }, reached);
   }
-  /// Until so many bodies are told of that this holds for the first.
+  /// Until so many bodies are reported that this holds for the first.
   bool untilBody(const std::function<bool(const proto::BodyState&)>& holds) {
     return until([&] { return state_.bodies_size() > 0 && holds(state_.bodies(0)); });
   }

@@ -1,4 +1,4 @@
-// Takes what a server tells a session, until something is so.
+// Takes what a server sends to a session, until something is so.
 #pragma once
 
 #include <chrono>

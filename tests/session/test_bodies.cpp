@@ -1,4 +1,4 @@
-// Rigid bodies of HL clients on a running server: how they come, move, are told of, pushed, and refused.
+// Rigid bodies of HL clients on a running server: how they come, move, are reported, pushed, and refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ bool rests(const proto::BodyState& body, double height_m) {
   return std::abs(body.position().y() - height_m) < 1e-6 && vecOf(body.velocity_m_s()).norm() < 1e-6;
 }
 
-TEST_F(SessionBodiesTest, BlocksFallOntoTheFloorAndAreToldOf) {
+TEST_F(SessionBodiesTest, BlocksFallOntoTheFloorAndAreReported) {
   Client client(server_);
   ASSERT_EQ(client.show(blocksFrame(1, {Vec3(0.5, 0.05, 0), Vec3(0.2, 0.03, 0)})), "");
   ASSERT_TRUE(client.until([&] {
@@ -47,7 +47,7 @@ TEST_F(SessionBodiesTest, BlocksFallOntoTheFloorAndAreToldOf) {
   EXPECT_NEAR(std::abs(rotation.w()), 1, 1e-9);
 }
 
-TEST_F(SessionBodiesTest, TheirImpactsAndSleepAreToldToTheClientThatAsks) {
+TEST_F(SessionBodiesTest, TheirImpactsAndSleepAreSentToTheClientThatAsks) {
   Client client(server_), silent(server_);
   EXPECT_NE(client.hear(-1), "");
   EXPECT_NE(client.hear(std::numeric_limits<double>::quiet_NaN()), "");
@@ -74,7 +74,7 @@ TEST_F(SessionBodiesTest, TheirImpactsAndSleepAreToldToTheClientThatAsks) {
   EXPECT_TRUE(silent.events_.empty());
 }
 
-TEST_F(SessionBodiesTest, ImpactsBelowWhatAClientHasSetAreNotTold) {
+TEST_F(SessionBodiesTest, ImpactsBelowWhatAClientHasSetAreNotSent) {
   Client client(server_);
   EXPECT_EQ(client.hear(1), "");
   ASSERT_EQ(client.show(blocksFrame(1, {Vec3(0.5, kHalf_m + 0.05, 0)})), "");

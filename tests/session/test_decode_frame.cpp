@@ -642,7 +642,7 @@ TEST(MessageSize, AMessageThatHasNoRoomIsKnownByItsOutline) {
   EXPECT_EQ(decoded.frame().world().items_size(), 0);
 }
 
-// ---- What a client is told
+// ---- What a client is sent
 // -------------------------------------------------------------------------------------------
 
 std::vector<std::string> warningsOf(const proto::Frame& frame, const ItemsBefore& before = {}) {
@@ -689,7 +689,7 @@ TEST(DecodeFrame, FaultsNameObjectsByTheirNumbers) {
   EXPECT_EQ(refusalOf(frame), "object 3 is there twice");
 }
 
-TEST(DecodeFrame, ACallOfWhatIsNotThereIsToldAndShown) {
+TEST(DecodeFrame, ACallOfWhatIsNotThereIsReportedAndShown) {
   const SceneItems none;
   const ItemsBefore before = [&](std::uint32_t object) { return object == 6 ? &none : nullptr; };
   proto::Frame frame;

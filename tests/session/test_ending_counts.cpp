@@ -1,4 +1,4 @@
-// Ticks by why they ended: the counts, and the message that tells them to pages and clients.
+// Ticks by why they ended: the counts, and the message that gives them to pages and clients.
 #include "touch/ending_counts.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Joints of HL clients on a running server: how they come, hold, go on, are told of, and refused.
+// Joints of HL clients on a running server: how they come, hold, go on, are reported, and refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,7 +62,7 @@ class SessionJointsTest : public testing::Test {
   TouchServer server_;
 };
 
-TEST_F(SessionJointsTest, ASpringHoldsTheWeightAndTellsIt) {
+TEST_F(SessionJointsTest, ASpringHoldsTheWeightAndReportsIt) {
   Client client(server_);
   ASSERT_EQ(client.show(hangingFrame(1)), "");
   ASSERT_TRUE(client.until([&] { return hangs(client); }));

@@ -37,7 +37,7 @@ void call(proto::Frame& frame, double x) {
   for (const double element : {1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., x, 0., 0., 1.}) item.add_matrix(element);
 }
 
-/// A client of a publisher, and what it has been told.
+/// A client of a publisher, and what has been reported to it.
 class Client {
  public:
   Client(
@@ -48,9 +48,9 @@ class Client {
     FrameCallbacks callbacks;
     callbacks.progress = [on_progress](std::uint64_t number, double) { on_progress(number); };
     callbacks.shown = [this](std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings) {
-      tell(number, primitives, warnings.size());
+      keep(number, primitives, warnings.size());
     };
-    callbacks.refused = [this](std::uint64_t number, const std::string&) { tell(number, kRefused, 0); };
+    callbacks.refused = [this](std::uint64_t number, const std::string&) { keep(number, kRefused, 0); };
     place = publisher.join(session, {}, memory, std::move(callbacks), std::move(replaced));
   }
   Client(const Client&) = delete;
@@ -61,18 +61,18 @@ class Client {
   }
 
   static constexpr std::size_t kRefused = 1'000'000;
-  struct Told {
+  struct Reported {
     std::uint64_t frame;
     std::size_t primitives;
-    bool operator==(const Told&) const = default;
+    bool operator==(const Reported&) const = default;
   };
 
   void submit(proto::Frame frame) { publisher_.submit(place, std::move(frame), {}, {}); }
   /// Waits for so many.
-  std::vector<Told> told(std::size_t count) {
+  std::vector<Reported> reported(std::size_t count) {
     const auto all = [&] {
       const std::lock_guard lock(mutex_);
-      return told_;
+      return reported_;
     };
     test::waitFor([&] { return all().size() >= count; });
     return all();
@@ -87,15 +87,15 @@ class Client {
   std::shared_ptr<ScenePublisher::ClientScene> place;
 
  private:
-  void tell(std::uint64_t number, std::size_t primitives, std::size_t warnings) {
+  void keep(std::uint64_t number, std::size_t primitives, std::size_t warnings) {
     const std::lock_guard lock(mutex_);
     warnings_ = warnings;
-    told_.push_back({number, primitives});
+    reported_.push_back({number, primitives});
   }
 
   ScenePublisher& publisher_;
   std::mutex mutex_;
-  std::vector<Told> told_;
+  std::vector<Reported> reported_;
   std::size_t warnings_ = 0;
 };
 
@@ -118,7 +118,7 @@ class ScenePublisherTest : public testing::Test {
   ScenePublisher publisher{shown, {&session}};
 };
 
-TEST_F(ScenePublisherTest, EachFrameIsToldOnceAndInOrder) {
+TEST_F(ScenePublisherTest, EachFrameIsReportedOnceAndInOrder) {
   Client client(publisher, 1);
   constexpr std::uint64_t kFrames = 200;
   for (std::uint64_t i = 1; i <= kFrames; ++i) {
@@ -128,17 +128,17 @@ TEST_F(ScenePublisherTest, EachFrameIsToldOnceAndInOrder) {
     if (i % 10 == 0) frame.mutable_world()->add_items()->set_upload(7);  // there is no such one
     client.submit(std::move(frame));
   }
-  const auto told = client.told(kFrames);
-  ASSERT_EQ(told.size(), kFrames);
+  const auto reported = client.reported(kFrames);
+  ASSERT_EQ(reported.size(), kFrames);
   std::vector<std::uint64_t> accepted, refused;
-  for (const auto& [number, primitives] : told) {
+  for (const auto& [number, primitives] : reported) {
     EXPECT_TRUE(primitives == 1 || primitives == Client::kRefused) << primitives;
     (primitives == 1 ? accepted : refused).push_back(number);
   }
   EXPECT_TRUE(std::is_sorted(accepted.begin(), accepted.end()));
   EXPECT_EQ(accepted.size(), kFrames - kFrames / 10);
   EXPECT_EQ(refused.size(), kFrames / 10);
-  test::waitFor([&] { return publisher.waiting(client.place) == 0; });  // the last one is told a little before
+  test::waitFor([&] { return publisher.waiting(client.place) == 0; });  // the last one is reported a little before
   EXPECT_DOUBLE_EQ(shownOf(1).at(0)->motion.to().origin.x(), 0.199);
 }
 
@@ -148,7 +148,7 @@ TEST_F(ScenePublisherTest, OneClientMovesComesAndGoesBesideAnother) {
   define(frame, 1);
   for (const double x : {5.0, 6.0, 7.0}) call(frame, x);
   still.submit(frame);
-  EXPECT_EQ(still.told(1), (std::vector<Client::Told>{{1, 3}}));
+  EXPECT_EQ(still.reported(1), (std::vector<Client::Reported>{{1, 3}}));
   const std::vector<const Instance*> before = shownOf(1);
   const auto kept = shown;  // so that `before` stays
   ASSERT_EQ(before.size(), 3U);
@@ -158,13 +158,13 @@ TEST_F(ScenePublisherTest, OneClientMovesComesAndGoesBesideAnother) {
     define(frame, 2);
     call(frame, 0);
     moving.submit(frame);
-    EXPECT_EQ(moving.told(1), (std::vector<Client::Told>{{1, 1}}));
+    EXPECT_EQ(moving.reported(1), (std::vector<Client::Reported>{{1, 1}}));
     EXPECT_FALSE(shownOf(2).at(0)->motion.moves());
     EXPECT_EQ(shown->blend_ns, kAbruptBlend_ns) << "it is new";
     frame = frameOf(2);
     call(frame, 1);
     moving.submit(frame);
-    EXPECT_EQ(moving.told(2).back(), (Client::Told{2, 1}));
+    EXPECT_EQ(moving.reported(2).back(), (Client::Reported{2, 1}));
     EXPECT_TRUE(shownOf(2).at(0)->motion.moves());
     EXPECT_EQ(shownOf(2).at(0)->motion.last().from().origin.x(), 0);
     EXPECT_EQ(shown->blend_ns, 0);
@@ -173,7 +173,7 @@ TEST_F(ScenePublisherTest, OneClientMovesComesAndGoesBesideAnother) {
   frame = frameOf(2);
   for (const double x : {5.0, 6.0, 7.0}) call(frame, x);
   still.submit(frame);
-  EXPECT_EQ(still.told(2).back(), (Client::Told{2, 3}));
+  EXPECT_EQ(still.reported(2).back(), (Client::Reported{2, 3}));
   const std::vector<const Instance*> after = shownOf(1);
   EXPECT_EQ(shown->instances.size(), 3U) << "the other has gone";
   ASSERT_EQ(after.size(), 3U);
@@ -192,18 +192,18 @@ TEST_F(ScenePublisherTest, WhatHasBeenBentIsAShapeAloneInAFrameOfAnotherClient) 
   define(frame, 1);
   call(frame, 0);
   mesh_motion.submit(frame);
-  mesh_motion.told(1);
+  mesh_motion.reported(1);
   frame.clear_objects();
   frame.set_number(2);
   define(frame, 1.1);
   mesh_motion.submit(frame);
-  mesh_motion.told(2);
+  mesh_motion.reported(2);
   EXPECT_TRUE(shownOf(1).at(0)->mesh_motion);
   EXPECT_GT(memory.used_bytes(), 2 * shownOf(1).at(0)->shape->bytes()) << "the shape that it comes from is still there";
   std::uint64_t frames = 0;
   test::waitFor([&] {  // until it has got there
     other.submit(frameOf(++frames));
-    other.told(frames);
+    other.reported(frames);
     return !shownOf(1).at(0)->mesh_motion;
   });
   EXPECT_EQ(shownOf(1).at(0)->shape->extent, 1.1);
@@ -233,9 +233,9 @@ TEST_F(ScenePublisherTest, WhatBendsIsCounted) {
   const MemoryBudget memory(1'000'000'000);
   Client client(publisher, 1, memory);
   client.submit(frameOfStrip(1, 0));
-  client.told(1);
+  client.reported(1);
   client.submit(frameOfStrip(2, 1));
-  client.told(2);
+  client.reported(2);
   shownOf(1);
   const auto& mesh_motion = shown->instances.at(0).mesh_motion;
   ASSERT_TRUE(mesh_motion);
@@ -252,16 +252,16 @@ TEST_F(ScenePublisherTest, WhatHasNoRoomToBendIsThereAtOnceAndTheFrameSaysSo) {
     const MemoryBudget memory(1'000'000'000);
     Client client(publisher, 2, memory);
     client.submit(frameOfStrip(1, 0));
-    client.told(1);
+    client.reported(1);
     return shownOf(2).at(0)->shape->bytes();
   }();
   shown.reset();
   const MemoryBudget memory(3 * one_shape);  // what is built needs more while it is
   Client client(publisher, 1, memory);
   client.submit(frameOfStrip(1, 0));
-  EXPECT_EQ(client.told(1).back().primitives, 999U);
+  EXPECT_EQ(client.reported(1).back().primitives, 999U);
   client.submit(frameOfStrip(2, 1));
-  EXPECT_EQ(client.told(2).back().primitives, 1000U);
+  EXPECT_EQ(client.reported(2).back().primitives, 1000U);
   EXPECT_FALSE(shownOf(1).at(0)->mesh_motion);
   EXPECT_EQ(shown->blend_ns, kAbruptBlend_ns);
   EXPECT_EQ(client.warnings(), 1U);
@@ -277,7 +277,7 @@ TEST_F(ScenePublisherTest, AClientThatHasGoneLeavesNothing) {
     define(frame, 1);
     call(frame, 0);
     client.submit(frame);
-    client.told(1);
+    client.reported(1);
     EXPECT_GT(memory.used_bytes(), 0U);
   }
   shown.reset();
@@ -290,16 +290,16 @@ TEST_F(ScenePublisherTest, AReplacedClientGoesInTheSceneThatShowsTheFirstFrame) 
   define(frame, 1);
   call(frame, 0);
   before.submit(frame);
-  before.told(1);
+  before.reported(1);
   Client after(
       publisher, 2, {}, [](std::uint64_t) {}, before.place);
   Client other(publisher, 3);
   other.submit(frameOf(1));
-  other.told(1);
+  other.reported(1);
   EXPECT_EQ(shownOf(1).size(), 1U) << "until there is something in its place";
   const std::uint64_t number = shown->number;
   after.submit(frame);
-  after.told(1);
+  after.reported(1);
   EXPECT_EQ(shownOf(2).size(), 1U);
   EXPECT_EQ(shownOf(1).size(), 0U);
   EXPECT_EQ(shown->number, number + 1) << "there was no scene with both, or with none";
@@ -318,7 +318,7 @@ void failIn(int allocations) {
 
 bool failsNow() { return fails_in > 0 && fails_for == order && --fails_in == 0; }
 
-// A frame is told to be shown, or it is refused and nothing of it ever is, whichever allocation of its builder fails.
+// A frame is reported as shown, or it is refused and nothing of it ever is, whichever allocation of its builder fails.
 TEST_F(ScenePublisherTest, AFrameHappensAsAWholeOrNotAtAllWhereverMemoryEnds) {
   int fails = 0;
   std::atomic<std::uint64_t> failing{0};
@@ -326,13 +326,13 @@ TEST_F(ScenePublisherTest, AFrameHappensAsAWholeOrNotAtAllWhereverMemoryEnds) {
     if (number == failing) failIn(fails);
   });
   std::uint64_t number = 0;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   double size = 1;
   proto::Frame frame = frameOf(++number);
   define(frame, size);
   call(frame, 0);
   client.submit(frame);
-  client.told(++told);
+  client.reported(++reported);
   bool refused = true;
   for (fails = 1; refused; ++fails) {
     frame = frameOf(++number);
@@ -340,13 +340,13 @@ TEST_F(ScenePublisherTest, AFrameHappensAsAWholeOrNotAtAllWhereverMemoryEnds) {
     call(frame, 0);
     failing = number;
     client.submit(frame);
-    refused = client.told(++told).back().primitives == Client::kRefused;
+    refused = client.reported(++reported).back().primitives == Client::kRefused;
     ++order;
     if (!refused) size += 1;
     proto::Frame same;
     same.set_number(++number);
     client.submit(same);
-    ASSERT_EQ(client.told(++told).back().primitives, 1U);
+    ASSERT_EQ(client.reported(++reported).back().primitives, 1U);
     ASSERT_EQ(shownOf(1).at(0)->shape->extent, size) << "after allocation " << fails << " failed";
   }
   EXPECT_GT(fails, 5) << "some did fail";
@@ -389,7 +389,7 @@ void showWhileTheServoStands(bool from_its_first_step) {
       if (i == 1) define(frame, 1);
       call(frame, 0.001 * static_cast<double>(i));
       client.submit(std::move(frame));
-      EXPECT_EQ(client.told(i).back().primitives, 1U);
+      EXPECT_EQ(client.reported(i).back().primitives, 1U);
     }
     keeps = false;
     test::waitFor(

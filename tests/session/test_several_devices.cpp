@@ -136,7 +136,7 @@ TEST_F(SeveralDevices, AreAllInTheMetricsAndInTheHealth) {
 }
 
 // In its own message a page finds each device by its name; what it sends is for the one that it names.
-TEST_F(SeveralDevices, AreAllToldToPages) {
+TEST_F(SeveralDevices, AreAllSentToPages) {
   start(false);
   ViewerFeedSettings settings;
   settings.others = server_->otherDevices();

@@ -1,4 +1,4 @@
-// Sessions of HL clients on a running server, without sockets: what may come when, what is shown, touched and told.
+// Sessions of HL clients on a running server, without sockets: what may come when, what is shown, touched and reported.
 #include "session/touch_server.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ void addFloor(proto::Item& item, double y) {
   for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) item.mutable_primitives()->add_triangles(i);
 }
 
-// A client that holds one session and remembers what it was told.
+// A client that holds one session and keeps what it was sent.
 class Client {
  public:
   explicit Client(TouchServer& server) : session_(server.connect([this] { ++wakes_; })) {}
@@ -210,7 +210,7 @@ TEST_F(TouchServerTest, AnotherVersionOrDeviceIsRefusedWithAReason) {
   EXPECT_NE(lost.session_->end().find("device 3"), std::string::npos);
 }
 
-TEST_F(TouchServerTest, WelcomeTellsOfDevicesAndLimits) {
+TEST_F(TouchServerTest, WelcomeDescribesDevicesAndLimits) {
   Client client(server_);
   client.open();
   EXPECT_EQ(client.welcome_.server_version(), "test");
@@ -220,7 +220,7 @@ TEST_F(TouchServerTest, WelcomeTellsOfDevicesAndLimits) {
   EXPECT_GT(client.welcome_.limits().scene_bytes(), 100'000'000u);
 }
 
-TEST_F(TouchServerTest, AFrameIsShownTouchedAndToldOfByItsNames) {
+TEST_F(TouchServerTest, AFrameIsShownTouchedAndReportedByItsNames) {
   Client client(server_);
   client.open();
   ASSERT_TRUE(client.show(client.floorFrame(0)));
@@ -623,8 +623,8 @@ TEST_F(TouchServerTest, SettingsThatAreNoneAreRefusedAndNothingOfThemIsSet) {
   EXPECT_TRUE(client.until([&] { return client.state_.hand_firm(); }));
 }
 
-// However seldom states come, each step of the servo is told, once.
-TEST_F(TouchServerTest, SamplesTellOfAllThatTheDeviceDidBetweenTwoStates) {
+// However seldom states come, each step of the servo is sent, once.
+TEST_F(TouchServerTest, SamplesHoldAllThatTheDeviceDidBetweenTwoStates) {
   Client client(server_);
   client.open("test", true, false, 50);
   ASSERT_TRUE(client.until([&] { return client.state_.time_s() > 0; }));
@@ -653,7 +653,7 @@ TEST_F(TouchServerTest, SamplesTellOfAllThatTheDeviceDidBetweenTwoStates) {
 }
 
 // Each step of the servo is in one report, and the forces of the contacts add up to what the hand felt.
-TEST_F(TouchServerTest, ContactReportsTellOfAllThatWasPressed) {
+TEST_F(TouchServerTest, ContactReportsHoldAllThatWasPressed) {
   Client client(server_);
   client.open("test", true, false, 50);
   ASSERT_TRUE(client.show(client.floorFrame(-0.02)));
@@ -868,7 +868,7 @@ TEST(TouchServer, ARadiusThatIsSetBeforeTheFirstWorldHolds) {
   }
 }
 
-TEST(TouchServer, AClosedServerTellsItsClients) {
+TEST(TouchServer, AClosedServerNotifiesItsClients) {
   auto server = std::make_unique<TouchServer>(nothing(), settingsOf());
   server->start();
   Client client(*server);

@@ -58,7 +58,7 @@ class SharedServer {
       : touch(std::move(scene), settings),
         bridge(std::move(link), "lab", {id, name, true, "test"}, touch, [this](const std::string& line) {
           const std::lock_guard lock(mutex_);
-          told_.push_back(line);
+          reported_.push_back(line);
         }) {
     touch.start();
     bridge.start();
@@ -91,15 +91,15 @@ class SharedServer {
     EXPECT_TRUE(now->find(key, number));
     return now->instances[number];
   }
-  bool hasTold(const std::string& text) {
+  bool hasReported(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    return std::any_of(told_.begin(), told_.end(),
+    return std::any_of(reported_.begin(), reported_.end(),
                        [&](const std::string& line) { return line.find(text) != std::string::npos; });
   }
 
  private:
   std::mutex mutex_;
-  std::vector<std::string> told_;
+  std::vector<std::string> reported_;
 
  public:
   TouchServer touch;

@@ -1,4 +1,4 @@
-// What servers of a shared world tell of an object: read and written again it is the same, to the bit.
+// What servers of a shared world send of an object: read and written again it is the same, to the bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>

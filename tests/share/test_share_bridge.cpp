@@ -37,10 +37,10 @@ TEST_F(SharedServers, SeeEachOthersHands) {
   waitFor([&] { return a->bridge.view().hands.size() == 1 && b->bridge.view().hands.size() == 1; });
   waitFor([&] { return b->bridge.view().peers.size() == 1 && b->bridge.view().peers[0].name == "anna"; });
   EXPECT_EQ(b->bridge.view().hands[0].server(), "anna");
-  EXPECT_TRUE(b->hasTold("server anna is in the world"));
+  EXPECT_TRUE(b->hasReported("server anna is in the world"));
 }
 
-TEST_F(SharedServers, ProgramsAreToldOfTheHandsOfOthers) {
+TEST_F(SharedServers, ProgramsAreSentTheHandsOfOthers) {
   const auto a = add(1, "anna", floorAndBlock()), b = add(2, "bert", nothing());
   BodiesClient client(b->touch);
   ASSERT_TRUE(client.until([&] { return client.state_.remote_size() == 1; }));
@@ -87,7 +87,7 @@ TEST_F(SharedServers, WhatAKilledServerHadStaysAndItsBodiesGoOnAndComeBackWithIt
   hub.cut(1);
   a.reset();
   waitFor([&] { return b->other(kBlockThere)->movesAsBody(); });  // of all that are left it has the lowest number
-  waitFor([&] { return b->hasTold("server anna is lost"); });
+  waitFor([&] { return b->hasReported("server anna is lost"); });
   waitFor([&] { return b->bridge.view().counts.adopted == kBoth; });
   // It can be lifted from then on by a program of any server, as it could before.
   waitFor([&] { return c->other(kBlockThere)->shownAt(monotonicNow_ns()) == b->other(kBlockThere)->shownAt(0); });
@@ -101,7 +101,7 @@ TEST_F(SharedServers, WhatAKilledServerHadStaysAndItsBodiesGoOnAndComeBackWithIt
 TEST_F(SharedServers, OfOneNameTheSecondSharesNothing) {
   const auto a = add(1, "anna", floorAndBlock()), b = add(2, "anna", nothing());
   waitFor([&] { return !b->bridge.view().ended.empty(); });
-  EXPECT_TRUE(b->hasTold("--share-name"));
+  EXPECT_TRUE(b->hasReported("--share-name"));
   EXPECT_EQ(a->bridge.view().ended, "");
 }
 
@@ -109,23 +109,23 @@ TEST_F(SharedServers, WhatIsThereStaysWhenTheLinkHasEnded) {
   const auto a = add(1, "anna", floorAndBlock()), b = add(2, "bert", nothing());
   waitForBoth(*b);
   hub.end(2);
-  waitFor([&] { return b->hasTold("hl-share has ended"); });
+  waitFor([&] { return b->hasReported("hl-share has ended"); });
   EXPECT_TRUE(b->other(kBlockThere).has_value());
-  waitFor([&] { return b->hasTold("hl-share is there again"); });
+  waitFor([&] { return b->hasReported("hl-share is there again"); });
   EXPECT_EQ(b->bridge.view().ended, "");
   EXPECT_TRUE(b->other(kBlockThere).has_value());
   EXPECT_FALSE(b->other(kBlockThere)->movesAsBody()) << "its owner was there all the time";
 }
 
-// What it had told is told anew, so that who joins later has it, and what happened meanwhile too.
-TEST_F(SharedServers, WhatAServerHasIsToldAgainWhenTheLinkIs) {
+// What it had sent is sent anew, so that who joins later has it, and what happened meanwhile too.
+TEST_F(SharedServers, WhatAServerHasIsSentAgainWhenTheLinkIsBack) {
   const auto a = add(1, "anna", nothing()), b = add(2, "bert", nothing());
   BodiesClient client(a->touch);
   EXPECT_EQ(client.show(blocksFrame(1, {Vec3(0.3, 0.021, 0.3)})), "");
   waitForBoth(*b);
   hub.end(1);
   EXPECT_EQ(client.show(blocksFrame(2, {Vec3(0.3, 0.021, 0.3), Vec3(-0.3, 0.021, 0.3)})), "");
-  waitFor([&] { return a->hasTold("hl-share is there again"); });
+  waitFor([&] { return a->hasReported("hl-share is there again"); });
   const auto c = add(3, "cleo", nothing());
   for (SharedServer* const other : {b.get(), c.get()}) {
     waitFor([&] { return other->scene()->instances.size() == 3; });

@@ -183,8 +183,8 @@ TEST(SharedWorld, WhatItHasNoRoomForIsLeftOutAndTheRestStays) {
   EXPECT_EQ(b.world->counts(net.nowOf(b)).left_out, SharedWorld::kMaxItems);
 }
 
-// A server writes its contents before it tells of the objects that have them.
-TEST(SharedWorld, ContentsThatAreHeldElsewhereStayUntilTheirObjectIsTold) {
+// A server writes its contents before it publishes the objects that have them.
+TEST(SharedWorld, ContentsThatAreHeldElsewhereStayUntilTheirObjectIsPublished) {
   VirtualNet net({});
   auto& a = net.add("a", 7);
   auto& b = net.add("b", 5);
@@ -330,7 +330,7 @@ TEST(SharedWorld, HandsAreThereAndGo) {
   hand.set_label("a");
   hand.mutable_finger()->set_x(0.125);
   for (int frame = 0; frame < 30; ++frame) {
-    a.world->tellHand(0, hand, net.nowOf(a));
+    a.world->publishHand(0, hand, net.nowOf(a));
     net.frame();
   }
   ASSERT_TRUE(b.world->peers().all().contains(3));

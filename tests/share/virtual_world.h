@@ -65,7 +65,7 @@ class VirtualNet {
 
   /// One frame of all nodes; packets come every millisecond of it.
   void frame() {
-    for (const auto& node : nodes_) node->world->tell(node->local, true, nowOf(*node));
+    for (const auto& node : nodes_) node->world->publish(node->local, true, nowOf(*node));
     const std::int64_t end_ns = now_ns_ + kFrame_ns;
     while (now_ns_ < end_ns) {
       now_ns_ = std::min(now_ns_ + kMs, end_ns);

@@ -1,5 +1,5 @@
 // How near a place is to the nearest of all primitives, by looking at every one of them: shares no code with the proxy,
-// its queries or its closest point. What is surely farther than the nearest so far is told by a ball around it.
+// its queries or its closest point. What is surely farther than the nearest so far is found by a ball around it.
 #pragma once
 
 #include <cmath>

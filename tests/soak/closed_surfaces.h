@@ -1,4 +1,4 @@
-// Surfaces that nothing can go around, of random form, and what tells whether a place is behind them.
+// Surfaces that nothing can go around, of random form, and what decides whether a place is behind them.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What every long run is told on its command line, and how it tells its faults.
+// What every long run is given on its command line, and how it reports its faults.
 #pragma once
 
 #include <fmt/core.h>
@@ -47,7 +47,7 @@ inline Pieces piecesOf(const RunOptions& options, double work, double work_per_p
 /// By piece.
 using Faults = std::map<std::uint64_t, std::string>;
 
-/// Tells a fault at once: a long run may be stopped.
+/// Reports a fault immediately: a long run may be stopped.
 inline void addFault(Faults& faults, std::uint64_t piece, std::string fault) {
   fmt::print(stderr, "{}\n", fault);
   faults[piece] = std::move(fault);

@@ -5,8 +5,8 @@
 // point.
 //
 // Where a mesh closes in on the proxy from all sides, or is folded through itself with the proxy in between, there is
-// no room for it and no side: such lives end and are counted apart. They are told by a proxy that is pinched: it is not
-// clear of the meshes by a tenth of its radius. Looks that found it squeezed by less are counted too.
+// no room for it and no side: such lives end and are counted apart. A sign of them is a proxy that is pinched: it is
+// not clear of the meshes by a tenth of its radius. Looks that found it squeezed by less are counted too.
 #include <fmt/core.h>
 
 #include <array>

@@ -178,7 +178,7 @@ TEST(ImplicitSurface, ABoxThatJustLooksOutOfACapsuleIsKept) {
   EXPECT_TRUE(isKept(whole, 0.013951248759856823));
 }
 
-TEST(ImplicitSurface, TellsItsCellsAndItsErrorAsTheyArePlaced) {
+TEST(ImplicitSurface, ReportsItsCellsAndItsErrorAsTheyArePlaced) {
   const auto surface = test::surfaceOf(test::torus(3, 1), 0.01);
   const auto placed = surface->placed(0.005 * Mat3::Identity(), Vec3::Zero());
   const auto& small = dynamic_cast<const ImplicitSurface&>(*placed);

@@ -170,7 +170,7 @@ TEST(Trace, TheSameBitsEveryTimeAndWithoutTheHierarchy) {
 }
 
 // Along x through two points, each taken at 1 mm and left at 2 mm.
-TEST(Trace, TellsWhichSnapHolds) {
+TEST(Trace, ReportsWhichSnapHolds) {
   SceneModel model;
   model.snaps = {{"a", {Vec3(0.01, 0, 0)}, {}, 1e-3, 2}, {"b", {Vec3(0.02, 0, 0)}, {}, 1e-3, 2}};
   const auto scene = makeSnapshot(std::move(model));

@@ -1,4 +1,4 @@
-// Traces of scenes with bodies: where they are told to be, against closed forms and against what the finger feels.
+// Traces of scenes with bodies: where they are reported to be, against closed forms and against what the finger feels.
 #include <gtest/gtest.h>
 
 #include "scene/scene_model.h"

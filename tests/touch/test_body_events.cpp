@@ -1,4 +1,4 @@
-// What is told of bodies: impacts by the impulse that theory says, sleep, and that they wake.
+// What is reported of bodies: impacts by the impulse that theory says, sleep, and that they wake.
 #include "touch/body_events.h"
 
 #include <gtest/gtest.h>
@@ -51,9 +51,9 @@ class Falling {
   }
   std::vector<BodyEvent> run(double seconds) {
     pass(seconds);
-    std::vector<BodyEvent> told;
-    for (BodyEvent event; loop_->popEvent(event);) told.push_back(event);
-    return told;
+    std::vector<BodyEvent> reported;
+    for (BodyEvent event; loop_->popEvent(event);) reported.push_back(event);
+    return reported;
   }
   void act(BodyCommand command) {
     command.key = 2;
@@ -83,49 +83,49 @@ void expectImpulse(const BodyEvent& event, double momentum_N_s) {
 
 TEST(BodyEvents, AFallIsOneImpactOfItsMomentumAndThenSleep) {
   Falling falling(0.05, 0);
-  const std::vector<BodyEvent> told = falling.run(2);
-  ASSERT_EQ(told.size(), 2U);
+  const std::vector<BodyEvent> reported = falling.run(2);
+  ASSERT_EQ(reported.size(), 2U);
   const double speed_m_s = std::sqrt(2 * kGravity_m_s2 * 0.05);
-  EXPECT_EQ(told[0].kind, BodyEventKind::kImpact);
-  expectImpulse(told[0], kMass_kg * speed_m_s);
-  EXPECT_NEAR(1e-9 * static_cast<double>(told[0].time_ns), speed_m_s / kGravity_m_s2, 0.003);
-  EXPECT_NEAR(told[0].position_W.y(), kHalf_m, 1e-3);
-  EXPECT_EQ(told[0].object.session, 5U);
-  EXPECT_EQ(told[0].object.object, 6U);
-  EXPECT_EQ(told[0].object.name, 7U);
-  EXPECT_EQ(told[1].kind, BodyEventKind::kSleep);
-  EXPECT_EQ(told[1].object.object, 6U);
+  EXPECT_EQ(reported[0].kind, BodyEventKind::kImpact);
+  expectImpulse(reported[0], kMass_kg * speed_m_s);
+  EXPECT_NEAR(1e-9 * static_cast<double>(reported[0].time_ns), speed_m_s / kGravity_m_s2, 0.003);
+  EXPECT_NEAR(reported[0].position_W.y(), kHalf_m, 1e-3);
+  EXPECT_EQ(reported[0].object.session, 5U);
+  EXPECT_EQ(reported[0].object.object, 6U);
+  EXPECT_EQ(reported[0].object.name, 7U);
+  EXPECT_EQ(reported[1].kind, BodyEventKind::kSleep);
+  EXPECT_EQ(reported[1].object.object, 6U);
 }
 
 TEST(BodyEvents, ABounceGivesMoreByItsRestitution) {
   Falling falling(0.05, 0.5);
-  const std::vector<BodyEvent> told = falling.run(0.15);
-  ASSERT_EQ(told.size(), 1U);
+  const std::vector<BodyEvent> reported = falling.run(0.15);
+  ASSERT_EQ(reported.size(), 1U);
   const double momentum_N_s = 1.5 * kMass_kg * std::sqrt(2 * kGravity_m_s2 * 0.05);
-  expectImpulse(told[0], momentum_N_s);
+  expectImpulse(reported[0], momentum_N_s);
 }
 
 TEST(BodyEvents, WhatAClientDoesWakesAndIsNoImpact) {
   Falling falling(0, 0);
-  std::vector<BodyEvent> told = falling.run(1);
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].kind, BodyEventKind::kSleep);
+  std::vector<BodyEvent> reported = falling.run(1);
+  ASSERT_EQ(reported.size(), 1U);
+  EXPECT_EQ(reported[0].kind, BodyEventKind::kSleep);
   falling.showAgain();
   EXPECT_TRUE(falling.run(0.1).empty()) << "it sleeps on in the next scene";
   BodyCommand command;
   command.velocity_m_s = Vec3(0, 1, 0);
   falling.act(command);
-  told = falling.run(0.15);
-  ASSERT_EQ(told.size(), 1U) << "it flies";
-  EXPECT_EQ(told[0].kind, BodyEventKind::kWake);
+  reported = falling.run(0.15);
+  ASSERT_EQ(reported.size(), 1U) << "it flies";
+  EXPECT_EQ(reported[0].kind, BodyEventKind::kWake);
   {
     const RealtimeGuard guard;
     falling.pass(0.15);
   }
-  told = falling.run(0);
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].kind, BodyEventKind::kImpact);
-  expectImpulse(told[0], kMass_kg * 1);
+  reported = falling.run(0);
+  ASSERT_EQ(reported.size(), 1U);
+  EXPECT_EQ(reported[0].kind, BodyEventKind::kImpact);
+  expectImpulse(reported[0], kMass_kg * 1);
 }
 
 // While the device does not answer there are no steps; then all is done, four in a step.

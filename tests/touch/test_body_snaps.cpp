@@ -180,7 +180,7 @@ TEST(BodyFields, ABlockSwingsAboutAStillHandWithTheEnergyThatItHas) {
   }
 }
 
-TEST(BodySnaps, TheStepTellsWhichSnapHolds) {
+TEST(BodySnaps, TheStepReportsWhichSnapHolds) {
   Held held(0.1, snapOf({{0.015, 0, 0}}, 2e-3, 50), 0);
   const ServoSettings settings = test::plainServo(1000);
   held.step({0.05, 0, 0}, settings);

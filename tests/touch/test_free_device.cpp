@@ -132,7 +132,7 @@ TEST(FreeDevice, R6HitsABodyAsTwoPointsDo) {
 }
 
 // With T = 0 the device goes back with 0.028571 m/s and the body away with 0.171429 m/s.
-TEST(FreeDevice, R6LosesTheEnergyThatTheoryTells) {
+TEST(FreeDevice, R6LosesTheEnergyThatTheoryGives) {
   // In which part of a step the two meet decides on up to a third of a percent.
   for (const double start_m : {0.0001, 0.00013, 0.00016, 0.00019}) {
     const After coarse = hit<Line>(1e-3, start_m), fine = hit<Line>(0.25e-3, start_m);

@@ -1,4 +1,4 @@
-// What joints tell other threads: coordinate, velocity and forces on the body that is named first.
+// What joints report to other threads: coordinate, velocity and forces on the body that is named first.
 #include "touch/joint_views.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Instance bodyInstance(std::uint64_t key, const Vec3& at, bool fixed) {
   return instance;
 }
 
-// A block, key 2, and one that is fixed, key 1; the joint is told of after each of two seconds' steps.
+// A block, key 2, and one that is fixed, key 1; the joint is reported after each of two seconds' steps.
 ShownJoint hangs(JointSpec joint) {
   joint.shown = std::make_shared<SharedJoint>();
   joint.key = 77;
@@ -40,7 +40,7 @@ ShownJoint hangs(JointSpec joint) {
   return scene->mechanics.joints[0].shown->read();
 }
 
-TEST(JointViews, ASpringTellsItsWayAndForce) {
+TEST(JointViews, ASpringReportsItsWayAndForce) {
   JointSpec slider;
   slider.kind = JointKind::kSlider;
   slider.axis_W = Vec3::UnitY();
@@ -58,7 +58,7 @@ TEST(JointViews, ASpringTellsItsWayAndForce) {
   }
 }
 
-TEST(JointViews, WhatHoldsTellsItsForceOnTheFirst) {
+TEST(JointViews, WhatHoldsReportsItsForceOnTheFirst) {
   for (const JointKind kind : {JointKind::kBall, JointKind::kHinge, JointKind::kFixed, JointKind::kDistance}) {
     for (const bool block_first : {true, false}) {
       JointSpec joint;

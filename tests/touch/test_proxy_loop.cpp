@@ -327,7 +327,7 @@ TEST(ProxyLoop, ASurfaceThatBecomesSofterPullsWithoutAJump) {
   EXPECT_NEAR(bench.force_.y(), 6, 1e-6);
 }
 
-TEST(ProxyLoop, TellsWhatIsTouchedByTheNamesOfItsClient) {
+TEST(ProxyLoop, ReportsWhatIsTouchedByTheNamesOfItsClient) {
   Bench bench({floorAt(0)});
   bench.run(5, {0, 0.01, 0});
   bench.run(5, {0, -0.001, 0});

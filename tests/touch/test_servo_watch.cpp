@@ -27,7 +27,7 @@ class StillHand final : public SimulatedHand {
   void setHandGripper(double) override {}
 };
 
-/// A device that stands at the origin, and hangs, is slow, lost or let go when told to.
+/// A device that stands at the origin, and hangs, is slow, lost or let go when set to.
 class BreakableDevice final : public Device {
  public:
   explicit BreakableDevice(SimulatedHand* hand) : hand_(hand) {
@@ -126,15 +126,15 @@ TEST(ServoWatch, ADriverThatHangsIsStoppedFromOutsideAndTheServoFindsItselfInFau
 // No step comes any more, and still there is a file of those before.
 TEST(ServoWatch, AStallLeavesABlackBoxWhileItLasts) {
   const test::TempFolder folder;
-  std::atomic<bool> told{false};
+  std::atomic<bool> reported{false};
   TouchSettings settings;
   RecorderSettings recorder;
   recorder.black_box_folder = folder.path().string();
-  recorder.tell = [&](const std::string&, const std::string&) { told = true; };
+  recorder.report = [&](const std::string&, const std::string&) { reported = true; };
   settings.sink = recorderWith(recorder);
   Bench bench(settings);
   bench.device->hangs = true;
-  waitUntil([&] { return told.load(); });
+  waitUntil([&] { return reported.load(); });
   const auto box = std::filesystem::directory_iterator(folder.path())->path();
   const ReplayReport report = replay(box.string());
   EXPECT_EQ(report.fault, faultText(FaultReason::kStalled));
@@ -143,7 +143,7 @@ TEST(ServoWatch, AStallLeavesABlackBoxWhileItLasts) {
   bench.device->hangs = false;
 }
 
-TEST(ServoWatch, ALostDeviceThatReturnsIsToldAndArmsAgainWhereItIsWanted) {
+TEST(ServoWatch, ALostDeviceThatReturnsIsReportedAndArmsAgainWhereItIsWanted) {
   for (const bool arm_again : {false, true}) {
     TouchSettings settings;
     settings.servo.arm_again = arm_again;

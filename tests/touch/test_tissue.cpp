@@ -1,5 +1,5 @@
 // Tissue that a client deforms, felt through the servo: the loop of force and frames is stable where the compliance
-// told is large enough, and feels the tissue's own stiffness. E7 and E8: docs/tissue.md.
+// given is large enough, and feels the tissue's own stiffness. E7 and E8: docs/tissue.md.
 #include "tissue.h"
 
 #include <gtest/gtest.h>
@@ -18,10 +18,10 @@ using test::TissueClient;
 
 constexpr double kK = 1000;
 
-TissueClient clientOf(double tissue_N_m, double told_m_N, double frames_Hz = 30, int latency = 1) {
+TissueClient clientOf(double tissue_N_m, double given_m_N, double frames_Hz = 30, int latency = 1) {
   TissueClient client;
   client.compliance_m_N = 1 / tissue_N_m;
-  client.told_m_N = told_m_N;
+  client.given_m_N = given_m_N;
   client.frames_Hz = frames_Hz;
   client.latency = latency;
   return client;
@@ -47,7 +47,7 @@ const std::array<Row, 4> kTable{{{100, {-10, -1, -.29411764705882354, 0, .476190
                                  {500, {-2, -1, -.2, 0, .4}},
                                  {3000, {-1. / 3, -1. / 3, -.066666666666666666, 0, .2}}}};
 
-std::array<double, 5> toldOf(double tissue_N_m) {
+std::array<double, 5> givenOf(double tissue_N_m) {
   const double c = 1 / tissue_N_m;
   return {0, std::max(0.0, (c - 1 / kK) / 2), .75 * c, c, 2 * c};
 }
@@ -57,7 +57,7 @@ TEST(Tissue, TheErrorOfAFrameIsThatOfTheClosedForm) {
   for (const Row& row : kTable) {
     for (std::size_t i = 0; i < 5; ++i) {
       for (const double frames_Hz : {10., 30., 60.}) {
-        const auto errors = errorsAfterPush(clientOf(row.tissue_N_m, toldOf(row.tissue_N_m)[i], frames_Hz), 3);
+        const auto errors = errorsAfterPush(clientOf(row.tissue_N_m, givenOf(row.tissue_N_m)[i], frames_Hz), 3);
         EXPECT_GT(std::abs(errors[0]), 1e-6);
         EXPECT_NEAR(errors[1] / errors[0], row.factors[i], 1e-4 * (1 + std::abs(row.factors[i])))
             << row.tissue_N_m << " N/m, column " << i << ", " << frames_Hz << " Hz";
@@ -91,17 +91,17 @@ TEST(Tissue, TheBorderOfStabilityIsThatOfTheClosedForm) {
   }
 }
 
-// E7: what is told decides how fast it settles, never where.
+// E7: what is given decides how fast it settles, never where.
 TEST(Tissue, ItSettlesAtTheForceOfBothSpringsInSeries) {
   constexpr double kDepth_m = 0.005;
   const Vec3 finger(0, Tissue::kRadius_m - kDepth_m, 0);
   for (const double tissue_N_m : {100., 200., 500., 3000.}) {
-    for (const double told : {.75, 1., 2.}) {
+    for (const double given : {.75, 1., 2.}) {
       for (const int latency : {1, 3}) {
-        Tissue tissue(clientOf(tissue_N_m, told / tissue_N_m, 30, latency));
+        Tissue tissue(clientOf(tissue_N_m, given / tissue_N_m, 30, latency));
         for (int i = 0; i < 60 * latency; ++i) tissue.run(finger);
         const double expected_N = kK * kDepth_m / (1 + kK / tissue_N_m);
-        EXPECT_NEAR(tissue.force_N().y() / expected_N, 1, 1e-9) << tissue_N_m << " " << told << " " << latency;
+        EXPECT_NEAR(tissue.force_N().y() / expected_N, 1, 1e-9) << tissue_N_m << " " << given << " " << latency;
       }
     }
   }
@@ -124,11 +124,11 @@ TEST(Tissue, WhatFluttersWithoutComplianceIsStillWithIt) {
   constexpr double kTissue_N_m = 100, kDepth_m = 0.01;
   const Vec3 finger(0, Tissue::kRadius_m - kDepth_m, 0);
   const double expected_N = kK * kDepth_m / (1 + kK / kTissue_N_m);
-  TissueClient rigid = clientOf(kTissue_N_m, 0, 30, 3), told = clientOf(kTissue_N_m, 1 / kTissue_N_m, 30, 3);
-  TissueClient estimated = told;
-  estimated.told_m_N.reset();
-  for (TissueClient* client : {&rigid, &told, &estimated}) client->moving = 1;
-  Tissue without(rigid), with(told), by_estimate(estimated);
+  TissueClient rigid = clientOf(kTissue_N_m, 0, 30, 3), given = clientOf(kTissue_N_m, 1 / kTissue_N_m, 30, 3);
+  TissueClient estimated = given;
+  estimated.given_m_N.reset();
+  for (TissueClient* client : {&rigid, &given, &estimated}) client->moving = 1;
+  Tissue without(rigid), with(given), by_estimate(estimated);
   for (int i = 0; i < 90; ++i) {
     for (Tissue* tissue : {&without, &with, &by_estimate}) tissue->run(finger);
   }
@@ -140,7 +140,7 @@ TEST(Tissue, WhatFluttersWithoutComplianceIsStillWithIt) {
 }
 
 // E8: a client of the Kelvin-Voigt model F = k x + b dx/dt, held at a constant depth delta from the first touch on. The
-// servo's spring in series: F = (delta - x) / (1/K), so x goes to its end with the rate (K + k) / b. C = 0 is told: the
+// servo's spring in series: F = (delta - x) / (1/K), so x goes to its end with the rate (K + k) / b. C = 0 is set: the
 // damper keeps the mesh from following the force within a frame.
 TEST(Tissue, ItCreepsAsTheModelOfKelvinAndVoigt) {
   constexpr double kTissue_N_m = 200, kDamper_Ns_m = 400, kDepth_m = 0.005, kFrames_Hz = 60;
@@ -258,7 +258,7 @@ TEST(Tissue, TheEstimateIsStableForAllLatencies) {
   for (const double tissue_N_m : {50., 100., 200., 500., 3000.}) {
     for (const int latency : {1, 2, 3}) {
       TissueClient client = clientOf(tissue_N_m, 0, 30, latency);
-      client.told_m_N.reset();
+      client.given_m_N.reset();
       client.moving = 1;
       Tissue tissue(client);
       const double depth_m = 1 / kK + 1 / tissue_N_m;  // 1 N
@@ -271,9 +271,9 @@ TEST(Tissue, TheEstimateIsStableForAllLatencies) {
 
 // The ledger: what the rules add is paid by the tank, whatever frames do.
 TEST(Tissue, TheRulesAddNoMoreThanTheTankHolds) {
-  for (const bool told : {true, false}) {
+  for (const bool given : {true, false}) {
     TissueClient client = clientOf(100, 0.01, 30, 3);
-    if (!told) client.told_m_N.reset();
+    if (!given) client.given_m_N.reset();
     client.moving = 1;
     Tissue tissue(client);
     for (int i = 0; i < 200; ++i)
@@ -285,16 +285,16 @@ TEST(Tissue, TheRulesAddNoMoreThanTheTankHolds) {
 }
 
 TEST(Tissue, StepsAllocateNothing) {
-  for (const bool told : {true, false}) {
+  for (const bool given : {true, false}) {
     TissueClient client = clientOf(100, 0.01, 30, 1);
-    if (!told) client.told_m_N.reset();
+    if (!given) client.given_m_N.reset();
     Tissue tissue(client);
     for (int i = 0; i < 20; ++i) {
       tissue.frameOnly();
       const RealtimeGuard guard;
       for (int ms = 0; ms < 33; ++ms) tissue.step({0, Tissue::kRadius_m - 0.001 * (i % 7), 0});
     }
-    EXPECT_NE(tissue.loop().state().estimate.key == 0, !told);
+    EXPECT_NE(tissue.loop().state().estimate.key == 0, !given);
   }
 }
 

@@ -16,14 +16,14 @@ FixedVector<ObjectName, kMaxActive> touching(std::initializer_list<std::uint64_t
   return touched;
 }
 
-struct Told {
+struct Reported {
   std::uint64_t key;
   bool touches;
-  bool operator==(const Told&) const = default;
+  bool operator==(const Reported&) const = default;
 };
 
-std::vector<Told> told(TouchEvents& events) {
-  std::vector<Told> all;
+std::vector<Reported> reported(TouchEvents& events) {
+  std::vector<Reported> all;
   for (TouchEvent event; events.pop(event);) all.push_back({event.object.key, event.touches});
   return all;
 }
@@ -34,9 +34,9 @@ TEST(TouchEvents, AContactThatFlickersIsOneTouch) {
   for (int i = 0; i < 100; ++i, now_ns += kMillisecond_ns) {
     events.follow(now_ns, i % 7 == 0 ? touching({4}) : touching({}), Vec3::Zero());
   }
-  EXPECT_EQ(told(events), (std::vector<Told>{{4, true}}));
+  EXPECT_EQ(reported(events), (std::vector<Reported>{{4, true}}));
   for (int i = 0; i < 40; ++i, now_ns += kMillisecond_ns) events.follow(now_ns, touching({}), Vec3::Zero());
-  EXPECT_EQ(told(events), (std::vector<Told>{{4, false}}));
+  EXPECT_EQ(reported(events), (std::vector<Reported>{{4, false}}));
 }
 
 TEST(TouchEvents, TwoTapsAreTwoTouches) {
@@ -46,13 +46,13 @@ TEST(TouchEvents, TwoTapsAreTwoTouches) {
     for (int i = 0; i < 60; ++i)
       events.follow(start_ns + i * kMillisecond_ns, i < 30 ? touching({9}) : touching({}), Vec3::Zero());
   }
-  EXPECT_EQ(told(events), (std::vector<Told>{{9, true}, {9, false}, {9, true}, {9, false}}));
+  EXPECT_EQ(reported(events), (std::vector<Reported>{{9, true}, {9, false}, {9, true}, {9, false}}));
 }
 
 TEST(TouchEvents, TwoContactsOnOneObjectAreOneTouch) {
   TouchEvents events;
   events.follow(1, touching({4, 4, 5}), Vec3::Zero());
-  EXPECT_EQ(told(events), (std::vector<Told>{{4, true}, {5, true}}));
+  EXPECT_EQ(reported(events), (std::vector<Reported>{{4, true}, {5, true}}));
 }
 
 // Whoever listens can count: each touch of an object is followed by its leaving before the next.
@@ -62,7 +62,7 @@ TEST(TouchEvents, WithManyObjectsInAFlashEveryTouchHasItsEnd) {
     events.follow(static_cast<std::int64_t>(key), touching({key}), Vec3::Zero());
   events.follow(10 * kLetGo_ns, touching({}), Vec3::Zero());
   std::vector<int> felt(51, 0);
-  for (const Told& event : told(events)) {
+  for (const Reported& event : reported(events)) {
     felt[event.key] += event.touches ? 1 : -1;
     EXPECT_TRUE(felt[event.key] == 0 || felt[event.key] == 1) << event.key;
   }

@@ -125,7 +125,7 @@ TEST(TouchSession, APageTurnsTheStylusAndSeesHowItIsTurned) {
   });
   ServoView pages, clients;
   ProxyView proxy;
-  const auto settled = [&] {  // the hand has come to rest: pages and clients are told the same
+  const auto settled = [&] {  // the hand has come to rest: pages and clients are sent the same
     session.views(pages, proxy);
     session.viewsForClients(clients, proxy);
     return pages.stylus.turned.coeffs() == clients.stylus.turned.coeffs();
@@ -184,7 +184,7 @@ TEST(TouchSession, AFirstWorldAppearsBesideTheFingerNotAroundIt) {
   }
 }
 
-TEST(TouchSession, EachTickIsCountedByWhyItEndedAndPagesAndClientsAreTold) {
+TEST(TouchSession, EachTickIsCountedByWhyItEndedAndPagesAndClientsGetTheCounts) {
   TouchSession session(makeSnapshot(makeBuiltinScene("plane:200"), HierarchyKind::kBvh), {});
   session.start();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));

@@ -15,10 +15,10 @@ class Shop {
   void run(double seconds) {
     const int steps = static_cast<int>(std::lround(seconds / 1e-3));
     for (int i = 0; i < steps; ++i) {
-      const double before_J = energy_J(), told_J = world_->state().energy.change_J();
+      const double before_J = energy_J(), booked_J = world_->state().energy.change_J();
       world_->step(time_ns_ += 1'000'000, 1e-3, {});
-      const double told = world_->state().energy.change_J() - told_J;
-      ASSERT_NEAR(energy_J() - before_J, told, 1e-9 * (std::abs(before_J) + std::abs(told))) << i;
+      const double booked = world_->state().energy.change_J() - booked_J;
+      ASSERT_NEAR(energy_J() - before_J, booked, 1e-9 * (std::abs(before_J) + std::abs(booked))) << i;
     }
   }
   double energy_J() const {

@@ -20,9 +20,9 @@ inline constexpr std::int64_t kMilli_ns = 1'000'000;
 struct TissueClient {
   double compliance_m_N = 0.01;  ///< C_t
   double frames_Hz = 30;
-  int latency = 1;                   ///< frames from the force to the mesh that was computed for it
-  std::optional<double> told_m_N{};  ///< C that it tells; none: it tells nothing
-  double moving = 0.5;               ///< part of a frame in which the mesh moves
+  int latency = 1;                    ///< frames from the force to the mesh that was computed for it
+  std::optional<double> given_m_N{};  ///< C that it gives; none: it gives nothing
+  double moving = 0.5;                ///< part of a frame in which the mesh moves
   /// In the place of C_t F: the depth of the floor, m, by the force that a frame was computed for and its length, s.
   std::function<double(double force_N, double frame_s)> depth{};
 };
@@ -135,8 +135,8 @@ class Tissue {
                       ? std::make_shared<MeshMotion>(motion_->then(floor_, now_ns_, end_ns))
                       : std::make_shared<MeshMotion>(MeshTransition(before, floor_, now_ns_, end_ns));
     motion_ = motion;
-    if (client_.told_m_N) {
-      const Compliance to{*client_.told_m_N, *client_.told_m_N, used_N};
+    if (client_.given_m_N) {
+      const Compliance to{*client_.given_m_N, *client_.given_m_N, used_N};
       compliance_ = compliance_.value_or(ComplianceMotion(Compliance{to.normal_m_N, to.tangential_m_N, Vec3::Zero()}))
                         .then(to, motion->last().begin_ns(), motion->last().end_ns());
     }

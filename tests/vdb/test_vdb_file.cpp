@@ -137,7 +137,7 @@ TEST_F(VdbFile, ATurnedTorusLiesTurned) {
 }
 
 // 0.1 mm apart: with voxels of 0.5 mm they are one body, which must be said.
-TEST_F(VdbFile, AGapThatTheVoxelsCloseIsTold) {
+TEST_F(VdbFile, AGapThatTheVoxelsCloseIsReported) {
   const auto two = [](double voxel) {
     const FloatGrid::Ptr both = ball(0.01, voxel);
     openvdb::tools::csgUnion(*both, *ball(0.01, voxel, {0.0201F, 0, 0}));

@@ -126,7 +126,7 @@ void FalconDevice::run() {
     const auto next = std::chrono::steady_clock::now() + kPeriod;
     silences = here && step(exchange_->wantedForce()) ? 0 : silences + 1;
     if (silences >= kMaxSilences) {
-      exchange_->tellLost();
+      exchange_->reportLost();
       here = beginAgain();
       if (here) silences = 0;
       if (!here) std::this_thread::sleep_for(kRetry);
@@ -158,8 +158,8 @@ bool FalconDevice::step(const Vec3& force_D) {
   angles_ = anglesOf(reply.encoders);
   located_ = falconTip(angles_, tip_F_);
   if (!located_) tip_F_ = kFalconCentre_F;  // from where every place can be found
-  exchange_->tell(asked_ns, tip_F_ - kFalconCentre_F, reply.buttons,
-                  home_ || !located_ ? DeviceStatus::kNotReady : DeviceStatus::kOk);
+  exchange_->report(asked_ns, tip_F_ - kFalconCentre_F, reply.buttons,
+                    home_ || !located_ ? DeviceStatus::kNotReady : DeviceStatus::kOk);
   return true;
 }
 

@@ -40,7 +40,7 @@ Eigen::Quaterniond turnToDevice(const double theirs[3][3]) {
   return Eigen::Quaterniond(ours);
 }
 
-// The library does not tell: about what the grippers of the omega.7 and the sigma.7 open to.
+// The library does not say it: about what the grippers of the omega.7 and the sigma.7 open to.
 constexpr double kGripperMax_rad = 0.52;
 
 }  // namespace
@@ -134,8 +134,8 @@ std::string ForceDimensionDevice::claimIt() {
     return error.what();
   }
   unsigned short serial = 0;
-  const bool told = calls_.serial_number != nullptr && calls_.serial_number(&serial, id_) >= 0 && serial != 0;
-  if (told && calls_.open_serial != nullptr) choice_.serial = serial;
+  const bool has_serial = calls_.serial_number != nullptr && calls_.serial_number(&serial, id_) >= 0 && serial != 0;
+  if (has_serial && calls_.open_serial != nullptr) choice_.serial = serial;
   return "";
 }
 
@@ -155,7 +155,7 @@ void ForceDimensionDevice::close() {
   library_.reset();
 }
 
-// Forces that went off by themselves (too fast, watchdog) come on again; the servo, told of it, has begun anew by then.
+// Forces that went off by themselves (too fast, watchdog) come on again; the servo, which saw it, has begun anew.
 DeviceStatus ForceDimensionDevice::examine(std::int64_t now_ns) {
   examined_ns_ = now_ns;
   std::array<int, kMaxStatuses> status{};
@@ -192,7 +192,7 @@ DeviceSample ForceDimensionDevice::read(std::int64_t now_ns) {
   return sample;
 }
 
-// What the library fails to tell stays what it was.
+// What the library fails to report stays what it was.
 void ForceDimensionDevice::readStylus() {
   double theirs[3][3] = {}, gripper_rad = 0;
   if (info_.has_wrist && calls_.orientation(theirs, id_) >= 0) stylus_.turned = turnToDevice(theirs);

@@ -68,7 +68,7 @@ class ForceDimensionDevice final : public Device {
 
   std::unique_ptr<VendorLibrary> library_;  // null: closed
   Calls calls_{};
-  ForceDimensionChoice choice_;  // once it was open: by its serial number, where it tells one
+  ForceDimensionChoice choice_;  // once it was open: by its serial number, where it has one
   char id_ = -1;
   DeviceClaim claim_;
   DeviceInfo info_;
@@ -76,7 +76,7 @@ class ForceDimensionDevice final : public Device {
   std::int64_t examined_ns_ = 0;
   bool watched_ = false;  // the watchdog runs
   Vec3 position_ = Vec3::Zero();
-  Stylus stylus_;  // as it was told last
+  Stylus stylus_;  // as last reported
   std::unique_ptr<Lifeline> lifeline_;
 };
 

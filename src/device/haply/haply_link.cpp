@@ -138,16 +138,16 @@ class HaplyLink::Conversation {
       } catch (const std::exception& error) {
         why = error.what();
       }
-      tellBegun(why);
-      exchanged.tellLost();
+      reportBegun(why);
+      exchanged.reportLost();
       asio::steady_timer timer(context_, kRetry);
       if (!ending_) co_await timer.async_wait(kAwait);
     }
   }
 
   // Once: how the first attempt went.
-  void tellBegun(const std::string& why) {
-    if (!std::exchange(told_, true)) begun_.set_value(why);
+  void reportBegun(const std::string& why) {
+    if (!std::exchange(reported_, true)) begun_.set_value(why);
   }
 
   // Until it ends; returns why.
@@ -165,7 +165,7 @@ class HaplyLink::Conversation {
     if (!missing.empty()) co_return missing;
     const std::string key = "haply " + address_.text() + "/" + state.device_id;
     if (claim_.key() != key) claim_ = DeviceClaim(key);
-    if (!told_) {
+    if (!reported_) {
       device_id_ = state.device_id;
       has_grip_ = state.has_grip;
     }
@@ -246,11 +246,11 @@ class HaplyLink::Conversation {
       const std::int64_t asked_ns = monotonicNow_ns();
       auto [unsent, sent] = co_await socket.async_write(asio::buffer(message), kAwait);
       if (unsent) co_return;
-      const std::optional<std::string> told = co_await receive(socket);
-      if (!told || !readHaplyMessage(*told, state) || !state.located) co_return;
-      exchanged.tell(asked_ns, state.position, state.buttons,
-                     state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady, state.stylus);
-      tellBegun("");
+      const std::optional<std::string> answer = co_await receive(socket);
+      if (!answer || !readHaplyMessage(*answer, state) || !state.located) co_return;
+      exchanged.report(asked_ns, state.position, state.buttons,
+                       state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady, state.stylus);
+      reportBegun("");
       if (!last) co_await timer.async_wait(kAwait);
     }
     co_await socket.async_close(websocket::close_code::normal, kAwait);
@@ -260,9 +260,9 @@ class HaplyLink::Conversation {
   asio::io_context context_{1};
   std::atomic<bool> ending_{false};
   std::promise<std::string> begun_;
-  bool told_ = false;
+  bool reported_ = false;
   bool conversing_ = false;
-  std::string device_id_;  // this and the next are written before begun_ is told
+  std::string device_id_;  // this and the next are written before begun_ is set
   bool has_grip_ = false;
   DeviceClaim claim_;   // from the first conversation to the end
   std::thread thread_;  // last: it uses all of the above

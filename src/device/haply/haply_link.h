@@ -24,13 +24,13 @@ class HaplyLink {
  public:
   /// Connects, and comes back by itself whenever the service has gone. Throws hl::Error when it cannot be had at first.
   explicit HaplyLink(const HaplyAddress& address);
-  /// Tells the service to let go of the tip, then ends.
+  /// Commands the service to let go of the tip, then ends.
   ~HaplyLink();
   HaplyLink(const HaplyLink&) = delete;
   HaplyLink& operator=(const HaplyLink&) = delete;
 
   const std::string& deviceId() const;
-  /// Whether there was a grip, which tells how it is turned, when the conversation began.
+  /// Whether there was a grip, which reports how it is turned, when the conversation began.
   bool hasGrip() const;
   /// Servo thread, RT-safe. What came last.
   DeviceSample newest(std::int64_t now_ns);

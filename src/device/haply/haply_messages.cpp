@@ -73,8 +73,8 @@ std::size_t buttonNumber(std::string_view name) {
 }
 
 void readButtons(const json::value* grip, std::uint32_t& buttons) {
-  const json::value* told = memberOf(memberOf(grip, "state"), "buttons");
-  const json::object* object = told != nullptr ? told->if_object() : nullptr;
+  const json::value* reported = memberOf(memberOf(grip, "state"), "buttons");
+  const json::object* object = reported != nullptr ? reported->if_object() : nullptr;
   if (object == nullptr) return;
   buttons = 0;
   for (const auto& [name, value] : *object) {
@@ -86,10 +86,10 @@ void readButtons(const json::value* grip, std::uint32_t& buttons) {
 
 // A quaternion of the service's frame: its axis is a direction there.
 void readTurn(const json::value* grip, HaplyState& state) {
-  const json::value* told = memberOf(memberOf(grip, "state"), "orientation");
+  const json::value* reported = memberOf(memberOf(grip, "state"), "orientation");
   Vec3 axis_H;
   double w = 0;
-  if (!readVector(told, axis_H) || !readNumber(memberOf(told, "w"), w)) return;
+  if (!readVector(reported, axis_H) || !readNumber(memberOf(reported, "w"), w)) return;
   state.stylus.turned.vec() = haplyToDevice(axis_H);
   state.stylus.turned.w() = w;
   state.has_grip = true;
@@ -130,8 +130,8 @@ bool readHaplyMessage(std::string_view text, HaplyState& state) {
   Vec3 position_H;
   state.located = readVector(memberOf(memberOf(device, "state"), "cursor_position"), position_H);
   if (state.located) state.position = haplyToDevice(position_H - centre_H());
-  if (const json::value* told = memberOf(memberOf(device, "status"), "calibrated"); told != nullptr && told->is_bool())
-    state.calibrated = told->get_bool();
+  if (const json::value* flag = memberOf(memberOf(device, "status"), "calibrated"); flag != nullptr && flag->is_bool())
+    state.calibrated = flag->get_bool();
   for (const char* grips : {"verse_grip", "wireless_verse_grip"}) {
     const json::value* grip = itemOf(memberOf(&message, grips), number);
     readButtons(grip, state.buttons);

@@ -22,11 +22,11 @@ HaplyDialect haplyDialectOf(std::string_view version);
 /// second. Frame D.
 struct HaplyState {
   std::string device_id;  ///< which; empty: the first that the next message has, if any
-  bool located = false;   ///< the last message told its position
+  bool located = false;   ///< the last message gave its position
   Vec3 position = Vec3::Zero();
   std::uint32_t buttons = 0;
   bool calibrated = true;  ///< unless the service says otherwise
-  bool has_grip = false;   ///< a grip has told how it is turned
+  bool has_grip = false;   ///< a grip has reported how it is turned
   Stylus stylus;
 };
 
@@ -36,7 +36,7 @@ std::vector<std::string> haplyDevicesOf(std::string_view text);
 /// Takes in a message of the service. False when it is none.
 bool readHaplyMessage(std::string_view text, HaplyState& state);
 
-/// Tells the service to hold `force_D`; the first message also introduces HL.
+/// Commands the service to hold `force_D`; the first message also introduces HL.
 std::string haplyForceMessage(const std::string& device_id, HaplyDialect dialect, const Vec3& force_D, bool first);
 
 }  // namespace hl

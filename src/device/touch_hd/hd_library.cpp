@@ -87,8 +87,8 @@ void HdLibrary::pause() {
 
 void HdLibrary::between(FunctionRef<void()> work) {
   if (!running_) return work();
-  const auto call = [](void* told) {
-    (*static_cast<FunctionRef<void()>*>(told))();
+  const auto call = [](void* argument) {
+    (*static_cast<FunctionRef<void()>*>(argument))();
     return kDone;
   };
   calls_.schedule_and_wait(call, &work, kMaxPriority);

@@ -58,7 +58,7 @@ class HdLibrary {
   /// What the library does not keep apart for its devices. A device has one from open() to close().
   struct Seat {
     std::atomic<HdCalls::Handle> handle{kNoDevice};  ///< while it is open
-    std::atomic<bool> failed{false};                 ///< the library told an error of this device
+    std::atomic<bool> failed{false};                 ///< the library reported an error of this device
     bool taken = false;                              ///< under setup()
   };
 

@@ -71,8 +71,8 @@ std::string TouchHdDevice::begin() {
     disable();
     return why;
   }
-  // Until the first frame nothing is known; what the scheduler told before it was stopped does not count any more.
-  exchange_.tell(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kNotReady);
+  // Until the first frame nothing is known; what the scheduler reported before it was stopped does not count any more.
+  exchange_.report(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kNotReady);
   const auto call = [](void* self) {
     static_cast<TouchHdDevice*>(self)->frame();
     return kCallAgain;
@@ -87,8 +87,8 @@ std::string TouchHdDevice::prepare() {
   const HdCalls& calls = library_->calls();
   calls.make_current(handle_);
   const char* serial = calls.get_string(kSerialNumber);
-  const bool told = serial != nullptr && *serial != '\0';
-  const std::string key = told ? std::string("hd ") + serial : "hd number " + std::to_string(handle_);
+  const bool has_serial = serial != nullptr && *serial != '\0';
+  const std::string key = has_serial ? std::string("hd ") + serial : "hd number " + std::to_string(handle_);
   try {
     if (claim_.key() != key) claim_ = DeviceClaim(key);
   } catch (const Error& error) {
@@ -131,11 +131,11 @@ void TouchHdDevice::close() {
   const std::shared_ptr<HdLibrary> library = library_;
   const std::lock_guard lock(library->setup());
   end();
-  exchange_.tell(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kNotReady);
+  exchange_.report(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kNotReady);
   leave();
 }
 
-// What the library tells of the device: millimetres, newtons for a millimetre.
+// What the library reports of the device: millimetres, newtons for a millimetre.
 void TouchHdDevice::describe() {
   const HdCalls& calls = library_->calls();
   const auto number = [&calls](unsigned int name) {
@@ -185,7 +185,7 @@ void TouchHdDevice::frame() {
   library_->sortErrors(*seat_);
   if (seat_->failed) status = DeviceStatus::kLost;
   if (its_own || seat_->failed)
-    exchange_.tell(asked_ns, position_mm / kMetre_mm, static_cast<std::uint32_t>(buttons), status, stylus);
+    exchange_.report(asked_ns, position_mm / kMetre_mm, static_cast<std::uint32_t>(buttons), status, stylus);
 }
 
 // From their transform, of OpenGL's order: column by column.
@@ -212,7 +212,7 @@ bool TouchHdDevice::asCurrent(FunctionRef<void()> work) {
   return false;
 }
 
-// A person may have to put the stylus into its well; the library then wants to be told to look again.
+// A person may have to put the stylus into its well; the library then wants a call that makes it look again.
 DeviceStatus TouchHdDevice::calibrate() {
   const HdCalls& calls = library_->calls();
   const unsigned int calibration = calls.check_calibration();

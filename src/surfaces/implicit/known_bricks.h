@@ -13,7 +13,7 @@ namespace hl {
 struct KnownBrick {
   int level;
   std::array<std::uint32_t, 3> at;  ///< below 2^16
-  /// Bound of the sum of the second derivatives' absolute values; infinite where slopes tell more.
+  /// Bound of the sum of the second derivatives' absolute values; infinite where slopes give a tighter bound.
   double bend;
 };
 

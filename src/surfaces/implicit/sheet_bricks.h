@@ -108,7 +108,7 @@ class SheetBricks {
   double value_ = 0, rest_ = 0, crossing_ = 0, rounding_ = 0;
   double vary_ = 0;      // sums over the axes: half of what the gradient varies in it
   double bend_ = 0;      // and bounds of the second derivatives in it, or in the brick of level 1 that it is a part of
-  bool curved_ = false;  // these tell more
+  bool curved_ = false;  // these give more
   std::size_t cost_ = 0;
   Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
 };

@@ -21,7 +21,7 @@ constexpr std::size_t kLooksOfAll = 400'000, kMaxLooks = 80'000, kMinLooks = 4'0
 constexpr double kOfRadius = 0.25, kOfSize = 0.125;
 /// Of a cell: what is looked at beside the sheet, and what must be, as a diagonal is that long.
 constexpr double kMargin = 2, kMinMargin = 1.8;
-constexpr std::size_t kPatience = 8;      // times as many where these tell nothing
+constexpr std::size_t kPatience = 8;      // times as many where these give nothing
 constexpr int kMaxAttempts = 4;           // to find a good margin
 constexpr int kMaxPatience = 16;          // to find any: what curves beside a plane may be far smaller than it
 constexpr double kSlackRounding = 1e-12;  // of coordinates

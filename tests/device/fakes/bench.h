@@ -21,7 +21,7 @@ struct BenchKind {
   std::string name;
   std::unique_ptr<Bench> (*make)();
   double position_tolerance_m;  ///< between what the driver reads and the true tip
-  double force_tolerance_N;     ///< between what it is told and what the motors make
+  double force_tolerance_N;     ///< between what it is commanded and what the motors make
 };
 
 std::vector<BenchKind> benchKinds();

@@ -119,8 +119,8 @@ inline constexpr const char* kFakePlugIn = "hlFakePlugIn";  ///< how many there 
 inline constexpr std::size_t kFakeDevices = 2;  ///< at the most
 
 inline std::size_t fakeDevicesAtFirst() {
-  const char* told = std::getenv("HL_FAKE_DEVICES");
-  return told != nullptr && *told == '2' ? 2 : 1;
+  const char* devices = std::getenv("HL_FAKE_DEVICES");
+  return devices != nullptr && *devices == '2' ? 2 : 1;
 }
 
 }  // namespace hl::test

@@ -26,11 +26,11 @@ class FakeScript {
   }
   void pulled() {
     if (!report_.is_open()) return;
-    if (told_) return;
+    if (reported_) return;
     if (++pulls_ % kPullsOfAStroke == 0) arm_.setHandGoal({0, pulls_ / kPullsOfAStroke % 2 == 1 ? -0.02 : 0.02, 0});
     const bool touched = arm_.strongest_N() >= 0.5;
-    told_ = touched || pulls_ >= kStrokes * kPullsOfAStroke;
-    if (told_) report_ << (touched ? "touched" : "nothing") << std::endl;
+    reported_ = touched || pulls_ >= kStrokes * kPullsOfAStroke;
+    if (reported_) report_ << (touched ? "touched" : "nothing") << std::endl;
   }
   void closed() {
     if (report_.is_open()) report_ << "closed " << arm_.force_D().norm() << std::endl;
@@ -43,7 +43,7 @@ class FakeScript {
   FakeArm& arm_;
   std::ofstream report_;
   int pulls_ = 0;
-  bool told_ = false;
+  bool reported_ = false;
 };
 
 }  // namespace hl::test

@@ -1,5 +1,5 @@
 // A libusb-1.0.so.0 for tests: the functions of libusb that HL calls, with one Falcon on the bus, or two, and a
-// mouse. Their firmware is the file that HL_FALCON_FIRMWARE names. What a baud rate is for tells how the line is set.
+// mouse. Their firmware is the file that HL_FALCON_FIRMWARE names. What a baud rate is for shows how the line is set.
 #include <libusb.h>
 
 #include <algorithm>

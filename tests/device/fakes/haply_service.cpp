@@ -44,7 +44,7 @@ HaplyService::~HaplyService() {
   thread_.join();
 }
 
-// Of several arms one that is lost is no longer told of; without the only one there is no service.
+// Of several arms one that is lost is no longer reported; without the only one there is no service.
 bool HaplyService::lost() const { return arms_.size() == 1 && arms_[0]->lost; }
 
 void HaplyService::run() {
@@ -110,9 +110,9 @@ void HaplyService::obey(const std::string& text, std::set<FakeArm*>& moved) {
   while (number < arms_.size() && id != kIds[number]) ++number;
   if (number == arms_.size() || arms_[number]->lost) return;
   const json::object& force = device.at("commands").at("set_cursor_force").as_object();
-  const json::value* told = force.if_contains(vector_ ? "vector" : "values");
-  if (told == nullptr) return;
-  const auto part = [told](const char* name) { return told->at(name).to_number<double>(); };
+  const json::value* components = force.if_contains(vector_ ? "vector" : "values");
+  if (components == nullptr) return;
+  const auto part = [components](const char* name) { return components->at(name).to_number<double>(); };
   arms_[number]->pull({part("x"), part("z"), -part("y")});
   moved.insert(arms_[number]);
 }

@@ -18,7 +18,7 @@ namespace hl::test {
 
 class HaplyService {
  public:
-  /// `version` as told at /version. From 3.5 on forces are "vector" and buttons a, b, c; before "values", button_0...
+  /// `version` as given at /version. From 3.5 on forces are "vector" and buttons a, b, c; before "values", button_0...
   HaplyService(FakeArm& arm, const std::string& version) : HaplyService(std::vector<FakeArm*>{&arm}, version) {}
   HaplyService(const std::vector<FakeArm*>& arms, const std::string& version);
   ~HaplyService();
