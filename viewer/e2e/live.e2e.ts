@@ -26,7 +26,7 @@ async function start(): Promise<Server> {
       return { process: child, url: line.slice("page: ".length) };
     }
   }
-  throw new Error("hl_moving_scene ended without naming its page");
+  throw new Error("hl_moving_scene ended without reporting its page");
 }
 
 describe.skipIf(!kProgram)("a scene that changes", () => {

@@ -50,7 +50,7 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
   type Given = Parameters<Page["setInputFiles"]>[1];
   const choose = (file: Given) => page.setInputFiles("#file", file);
 
-  test("records the session, informs other pages, and hl replay runs the file again bit for bit", async () => {
+  test("records the session, notifies other pages, and hl replay runs the file again bit for bit", async () => {
     const other = await context.newPage();
     await other.goto(touch.url);
     await other.waitForFunction(() => window.__hl.samples > 10);
