@@ -160,7 +160,7 @@ namespace HL {
         public uint Object;        // > 0: a call, and nothing else
         public double[] Matrix;    // 16 numbers, column by column, last row 0 0 0 1; null: identity
         public TouchMaterial Material;
-        public uint? Name;         // told when it is touched
+        public uint? Name;         // reported when it is touched
     }
 
     public struct Rotation {       // a quaternion
@@ -264,7 +264,7 @@ namespace HL {
         public Rotation Turned;    // 0 0 0 1: its shaft lies along +z, or the device has no wrist
         public Vec3 Spin_rad_s;
         public double Gripper_rad; // how far the gripper is open
-        public double Gripper_N;   // with which the hand closes it; 0: the device does not tell
+        public double Gripper_N;   // with which the hand closes it; 0: the device does not report it
     }
 
     /// <summary>A rigid body of this client after the last step. World frame.</summary>
@@ -339,7 +339,7 @@ namespace HL {
         public bool KeepObjects;         // objects stay touchable when this client has gone
         public double StateRate_Hz = 60;
         public double Timeout_s = 10;    // for the welcome
-        public bool BodyEvents;          // Sleep, Wake and Impact are told
+        public bool BodyEvents;          // Sleep, Wake and Impact are sent
         public double ImpactsAbove_N_s;  // smaller ones are not
     }
 
@@ -363,7 +363,7 @@ namespace HL {
         Draft waiting = new Draft();     // flushed, not sent
         DeviceSettings setting;          // not sent; null: none
         readonly Queue<byte[]> commands = new Queue<byte[]>();  // to bodies, not sent
-        bool bodiesAsked;                // the server has been asked to tell of bodies
+        bool bodiesAsked;                // the server has been asked to send bodies
         ulong sent, answered, nextUpload = 1;
         ulong messageLimit = 1 << 22;
         double frameLimit_Hz = 250;

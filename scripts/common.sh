@@ -39,7 +39,7 @@ configure_preset() {
   fi
 }
 
-# Reads what ninja prints: tells how far it is, on one line that is written over on a terminal, every ten seconds
+# Reads what ninja prints: reports how far it is, on one line that is written over on a terminal, every ten seconds
 # elsewhere; what compilers say passes through.
 show_progress() {
   local line shown=$SECONDS counted=no
@@ -61,7 +61,7 @@ show_progress() {
 build_dir() {
   local dir="$1"
   shift
-  # A dry run tells whether there is anything to do, so that nothing to do says nothing.
+  # A dry run shows whether there is anything to do, so that nothing to do says nothing.
   if ninja -C "$dir" -n "$@" 2>/dev/null | grep -q 'no work to do'; then return; fi
   NINJA_STATUS="[%f/%t] " ninja -C "$dir" -j "$(build_jobs)" "$@" 2>&1 | show_progress
 }

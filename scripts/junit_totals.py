@@ -23,12 +23,12 @@ def totals(root):
 
 
 def failures(root, most_lines=30):
-    """Of each case that failed: its name, and the last lines of what is told of it."""
+    """Of each case that failed: its name, and the last lines of what is reported of it."""
     for case in root.iter("testcase"):
-        told = [part for part in case if part.tag in ("failure", "error")]
-        if not told:
+        faults = [part for part in case if part.tag in ("failure", "error")]
+        if not faults:
             continue
-        texts = [text for part in [*told, *case.findall("system-out")] for text in (part.get("message"), part.text) if text]
+        texts = [text for one in faults + case.findall("system-out") for text in (one.get("message"), one.text) if text]
         yield case.get("name"), "\n".join(texts).strip().splitlines()[-most_lines:]
 
 

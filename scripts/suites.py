@@ -33,7 +33,7 @@ def arguments_of(words):
 
 
 def chosen_tests(arguments):
-    """The tests as ctest tells them: name, command and properties."""
+    """The tests as ctest lists them: name, command and properties."""
     command = ["ctest", "--test-dir", arguments.build_dir, "--show-only=json-v1", "--label-regex", arguments.label_regex,
                "--exclude-regex", arguments.exclude_regex]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["tests"]
@@ -78,8 +78,8 @@ def cases_of(report, group, code):
     if split_command(group[0])[1] is None:
         return [result(suite_of(group[0]), None if code == 0 else f"exit code {code}")]
     cases = list(ElementTree.parse(report).getroot().iter("testcase")) if report.exists() else []
-    told = any(case.find("failure") is not None for case in cases)
-    if len(cases) != len(group) or (code != 0 and not told):
+    failed = any(case.find("failure") is not None for case in cases)
+    if len(cases) != len(group) or (code != 0 and not failed):
         cases.append(result(suite_of(group[0]), f"exit code {code}, {len(cases)} of {len(group)} tests reported"))
     return cases
 

@@ -38,7 +38,7 @@ web_cache() {
 build_web_module() {
   local out="$root/build/web-module" source
   # Eigen adds up three numbers in another order without SSE2, so the last bits would differ from a native build: emscripten
-  # has these instructions over WebAssembly's own. Told that it is compiled by this GCC, Eigen uses no assembler for them.
+  # has these instructions over WebAssembly's own. With the version of this GCC, Eigen uses no assembler for them.
   local sse2='-msimd128 -msse2 -fgnuc-version=5.99 -DEIGEN_OPTIMIZATION_BARRIER(X)='
   local -a flags=(-std=c++20 -O2 -DNDEBUG -ffp-contract=off -fexceptions)
   mkdir -p "$out/include"

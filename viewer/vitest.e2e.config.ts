@@ -6,7 +6,7 @@ export default defineConfig({
     include: ["e2e/**/*.e2e.ts"],
     environment: "node",
     fileParallelism: false,
-    // Software graphics on a busy machine: what is waited for comes late, and only a long wait tells late from never.
+    // Software graphics on a busy machine: what is waited for comes late: a long wait distinguishes late from never.
     testTimeout: 600_000,
     hookTimeout: 300_000,
     expect: { poll: { timeout: 120_000 } },

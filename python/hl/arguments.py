@@ -32,8 +32,8 @@ def whole(value: Any, name: str, least: int = 0, most: int = 2**32 - 1) -> int:
     except TypeError:
         raise InvalidValueError(f"{name} must be a whole number, and is {_shown(value)}") from None
     if result < least:
-        least_told = "not be negative" if least == 0 else f"be {least} or more"
-        raise InvalidValueError(f"{name} must {least_told}, and is {result}")
+        requirement = "not be negative" if least == 0 else f"be {least} or more"
+        raise InvalidValueError(f"{name} must {requirement}, and is {result}")
     if result > most:
         raise InvalidValueError(f"{name} must be {most} or less, and is {result}")
     return result

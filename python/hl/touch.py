@@ -103,7 +103,7 @@ class State:
     rotation: Floats  #: (4,), of the stylus: unit quaternion x y z w; 0 0 0 1: its shaft lies along +z, or has no wrist
     spin: Floats  #: (3,), rad/s: its angular velocity
     gripper: float  #: rad: how far the gripper is open
-    grip_force: float  #: N with which the hand closes it; 0: the device does not tell
+    grip_force: float  #: N with which the hand closes it; 0: the device does not report it
     snapped_object: int  #: whose snap holds the proxy; 0: none
     snapped_name: int  #: its name; 0: none
     snap_number: int  #: which of its snaps
@@ -288,7 +288,7 @@ class Touch:
     ) -> None:
         """Draws what a depth camera sees: depths of 16 bits (rows, columns) in units of `scale` metres, 0 for none;
         `camera` is fx, fy, cx, cy in pixels. It is at the origin and looks along -z with y up. Define its object anew
-        for each frame, as hlDepthFrame tells."""
+        for each frame, as hlDepthFrame states."""
         self.make_current()
         image = np.asarray(depths)
         if image.dtype != np.uint16:
@@ -497,7 +497,7 @@ class Touch:
 
     @contextlib.contextmanager
     def name(self, number: int) -> Iterator[None]:
-        """What is drawn inside has this name, which states and events tell."""
+        """What is drawn inside has this name, which states and events report."""
         self.make_current()
         calls.hlPushName(arguments.whole(number, "a name"))
         try:

@@ -14,7 +14,7 @@ CLIENT = (480, 560, 1)       # of a page that is the client itself
 FILM = (1280, 720, 1)
 LONG_S = 600                 # an example goes on until its picture is taken
 SHOWN = "window.__hl && __hl.triangles + __hl.objects > 0"
-# Felt, and for long enough that the plots tell something.
+# Felt, and for long enough that the plots show something.
 TOUCHED = "window.__hl && __hl.force_N && Math.hypot(...['x', 'y', 'z'].map((axis) => __hl.force_N[axis])) > 0.3"
 PLOTS_S = 4
 FILM_S, FILM_QUALITY = 10, 60
@@ -23,7 +23,7 @@ EXAMPLES = ["01_sphere", "02_teapot_with_material", "03_lines_and_points", "04_h
             "06_textures", "07_events_buttons", "08_browser", "10_client", "11_web_client", "13_client"]
 
 
-def told(path):
+def report(path):
     print(path.relative_to(look.ROOT) if path.is_relative_to(look.ROOT) else path)
 
 
@@ -46,7 +46,7 @@ def write(png, path, method=Image.Quantize.MEDIANCUT):
     picture = Image.open(io.BytesIO(png)).convert("RGB")
     path.parent.mkdir(parents=True, exist_ok=True)
     picture.quantize(look.COLOURS, method, dither=Image.Dither.NONE).save(path, optimize=True)
-    told(path)
+    report(path)
 
 
 async def picture_of(name, programs):
@@ -208,7 +208,7 @@ def film(programs, scene="teapot", name="film", begin=TOUCHED, options=()):
     path = look.folder / f"{name}.webp"
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=durations_ms, loop=0,
                    quality=FILM_QUALITY, method=4)
-    told(path)
+    report(path)
     print(f"    {len(frames)} frames in {FILM_S} s, {path.stat().st_size // 1000} kB")
 
 

@@ -9,7 +9,7 @@ from plots.look import BLUE, GREEN, GREY, ORANGE, PURPLE, canvas, column, save, 
 RESULT = look.ROOT / "bench" / "results" / "share_xeon_2_cores.csv"
 COLOURS = {"anna": BLUE, "bert": ORANGE, "carl": GREEN}
 PLACES = {"anna": (0.0, 5.2), "bert": (5.6, 5.2), "carl": (2.8, 0.2)}
-# Of each server: what it owns, and so tells the others.
+# Of each server: what it owns, and so publishes to the others.
 OWNED = {"anna": ["its scene file", "its bodies"], "bert": ["a client's objects"], "carl": []}
 SIZE = (4.4, 3.6)
 

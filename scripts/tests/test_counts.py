@@ -18,7 +18,7 @@ class Counts(unittest.TestCase):
         for now in (951, 1000, 1049):
             self.assertEqual(counts.compare({CASE: 1000}, {CASE: now})[1], True, now)
 
-    def test_more_and_less_are_told_with_before_now_and_percent(self):
+    def test_more_and_less_are_reported_with_before_now_and_percent(self):
         for now, words in ((1060, "+6.0 %  SLOWER"), (900, "-10.0 %  better: keep it")):
             report, same = counts.compare({CASE: 1000}, {CASE: now})
             self.assertFalse(same)

@@ -25,7 +25,7 @@ class Blocks(unittest.TestCase):
             block = self.one(f"<!-- test: {comment} -->\n```c\n```\n")
             self.assertEqual((block.how, block.argument), (how, argument))
 
-    def test_mistakes_are_told(self):
+    def test_mistakes_are_reported(self):
         for text in ("<!-- test: later -->\n```c\n```\n", "<!-- test: not run -->\n```c\n```\n", "```\nwords\n```\n",
                      "```cobol\n```\n", "```c\nint a;\n"):
             with self.assertRaises(SystemExit):

@@ -24,7 +24,7 @@ class JunitTotals(unittest.TestCase):
           <testsuite><testcase name="b"><error/></testcase><testcase name="c"/></testsuite></testsuites>"""
         self.assertEqual(self.totals(report), (2, 1, 0))
 
-    def test_what_a_failed_case_said_is_told(self):
+    def test_what_a_failed_case_said_is_reported(self):
         report = """<testsuite><testcase name="good"><system-out>fine</system-out></testcase>
           <testcase name="bad"><failure message="Failed"/><system-out>one
           two</system-out></testcase></testsuite>"""

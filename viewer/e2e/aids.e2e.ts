@@ -169,7 +169,7 @@ test("without WebGL the page says so, and numbers and controls work", async () =
   await blind.close();
 });
 
-test("a graphics context that is lost is told, and drawing goes on when it is back", async () => {
+test("a graphics context that is lost is reported, and drawing goes on when it is back", async () => {
   const other = await browser.newPage(kWindow);
   await other.goto(server.url);
   await other.waitForFunction(() => window.__hl.samples > 10);

@@ -1,4 +1,4 @@
-// Bodies, end to end: what the mouse pushes moves, on the page too, and its energy is told to the joule.
+// Bodies, end to end: what the mouse pushes moves, on the page too, and its energy is reported to the joule.
 
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
@@ -31,7 +31,7 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
   let browser: Browser;
   let page: Page;
   let complaints: Complaints;
-  const told: Bodies[] = [];
+  const received: Bodies[] = [];
   const record = () => page.evaluate(() => document.getElementById("record")!.click());
   const block = () => page.evaluate((number) => window.__hl.originOf(number), kBlock);
   const folder = mkdtempSync(join(tmpdir(), "hl-e2e-"));
@@ -45,7 +45,7 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
     page.on("websocket", (socket) => {
       socket.on("framereceived", ({ payload }) => {
         const message = decodeServerMessage(new Uint8Array(Buffer.from(payload)));
-        if (message.kind === "state" && message.state.bodies !== undefined) told.push(message.state.bodies);
+        if (message.kind === "state" && message.state.bodies !== undefined) received.push(message.state.bodies);
       });
     });
     await page.goto(touch.url);
@@ -90,7 +90,7 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
 
   test("their energy is what hands gave less what was lost", async () => {
     await states(page, 5);
-    const [first, last] = [told[0]!, told.at(-1)!];
+    const [first, last] = [received[0]!, received.at(-1)!];
     expect(last.byHandJ).toBeGreaterThan(1e-5);
     expect(last.frictionJ).toBeGreaterThan(1e-5);
     expect(heldBy(last) - heldBy(first)).toBeCloseTo(broughtTo(last) - broughtTo(first), 9);
@@ -101,14 +101,14 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
     const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save-scene")]);
     const file = join(folder, "saved.hl.json");
     await download.saveAs(file);
-    const told = (scene: string) => execFileSync(kProgram!, ["info", scene], { encoding: "utf8" })
+    const infoOf = (scene: string) => execFileSync(kProgram!, ["info", scene], { encoding: "utf8" })
       .split("\n").filter((line) => /^(body|joint|gravity)/.test(line));
     // A door that was pushed has its range from where it is.
     const width = (line: string) => line.replace(/(-?[\d.]+) \.\. (-?[\d.]+) rad/,
       (_, low, high) => `a range of ${(Number(high) - Number(low)).toFixed(2)} rad`);
-    const begin = told(kBlocks).map(width);
+    const begin = infoOf(kBlocks).map(width);
     expect(begin).toHaveLength(4);
-    expect(told(file).map(width)).toEqual(begin);
+    expect(infoOf(file).map(width)).toEqual(begin);
   });
 
   test("are drawn on the timeline of a recording where they were", async () => {

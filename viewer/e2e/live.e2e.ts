@@ -26,7 +26,7 @@ async function start(): Promise<Server> {
       return { process: child, url: line.slice("page: ".length) };
     }
   }
-  throw new Error("hl_moving_scene ended without telling its page");
+  throw new Error("hl_moving_scene ended without reporting its page");
 }
 
 describe.skipIf(!kProgram)("a scene that changes", () => {
@@ -49,7 +49,7 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
     server?.process.stdin!.end();
   });
 
-  const tell = (line: string) => server.process.stdin!.write(`${line}\n`);
+  const send = (line: string) => server.process.stdin!.write(`${line}\n`);
   const objects = (count: number) => page.waitForFunction((wanted) => window.__hl.objects === wanted, count);
   const layoutNumber = () => page.evaluate(() => window.__hl.layout!);
   const cameraX = () => page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0 }).x);
@@ -61,7 +61,7 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
   });
 
   test("shows surfaces, lines and points as they come, in the middle of the view", async () => {
-    tell("show mixed 5");
+    send("show mixed 5");
     await objects(5);
     await page.waitForSelector("#empty", { state: "hidden" });
     expect(await page.evaluate(() => window.__hl.meshes)).toBe(5);
@@ -86,23 +86,23 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
     expect(await cameraX()).toBeCloseTo(camera, 6);
   });
 
-  test("tells which objects are touched", async () => {
+  test("says which objects are touched", async () => {
     await page.waitForFunction(() => window.__hl.touched.length > 0);
     await screenshot(page, "live_touched");
   });
 
   test("what has come to rest stays where it is", async () => {
-    tell("still");
+    send("still");
     const layout = await layoutNumber();
     await page.waitForFunction((before) => window.__hl.layout! > before, layout);
     const from = await page.evaluate(() => window.__hl.originOf(0));
     await states(page, 30);
     expect(await page.evaluate(() => window.__hl.originOf(0))).toEqual(from);
-    tell("move");
+    send("move");
   });
 
   test("objects go, their meshes are forgotten, and the rest moves on", async () => {
-    tell("show mixed 2");
+    send("show mixed 2");
     await objects(2);
     await page.waitForFunction(() => window.__hl.meshes === 2);
     const from = await page.evaluate(() => window.__hl.originOf(1));
@@ -110,7 +110,7 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
     await screenshot(page, "live_two");
   });
 
-  test("a second page gets all of it at once", async () => {
+  test("a second page gets all of it immediately", async () => {
     const other = await browser.newPage({ ...kWindow, colorScheme: "light" });
     await other.goto(server.url);
     await other.waitForFunction(() => window.__hl.objects === 2 && window.__hl.meshes === 2);
@@ -119,7 +119,7 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
   });
 
   test("a thousand moving objects are one mesh, and a press of R shows them all", async () => {
-    tell("show sphere:200 1000");
+    send("show sphere:200 1000");
     await objects(1000);
     expect(await page.evaluate(() => window.__hl.meshes)).toBe(1);
     await page.keyboard.press("r");
@@ -137,10 +137,10 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
   });
 
   test("a scene that empties says so again, and one of another size is fitted anew", async () => {
-    tell("show mixed 0");
+    send("show mixed 0");
     await page.waitForSelector("#empty:visible");
     expect(await page.evaluate(() => window.__hl.meshes)).toBe(0);
-    tell("show teapot 1");
+    send("show teapot 1");
     await objects(1);
     // Across all corners: the teapot may be turned so that two opposite ones lie above each other.
     await page.waitForFunction(() => {

@@ -45,7 +45,7 @@ describe.skipIf(!kProgram)("hl touch snaps", () => {
     return page.screenshot({ clip: { x: x - 20, y: y - 20, width: 40, height: 40 } });
   }
 
-  test("tells which snap holds the proxy", async () => {
+  test("says which snap holds the proxy", async () => {
     await page.waitForFunction(() => window.__hl.snap === 0);
   });
 
@@ -78,11 +78,11 @@ describe.skipIf(!kProgram)("hl touch snaps", () => {
     const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save-scene")]);
     const file = join(folder, "saved.hl.json");
     await download.saveAs(file);
-    const told = (scene: string) => execFileSync(kProgram!, ["info", scene], { encoding: "utf8" })
+    const infoOf = (scene: string) => execFileSync(kProgram!, ["info", scene], { encoding: "utf8" })
       .split("\n").filter((line) => /^(snap|field)/.test(line));
-    const begin = told("snaps");
+    const begin = infoOf("snaps");
     expect(begin).toHaveLength(8);
-    expect(told(file)).toEqual(begin);
+    expect(infoOf(file)).toEqual(begin);
   });
 
   test("draws the joints of the workshop", async () => {

@@ -130,7 +130,7 @@ test("a slider under the pointer stays where it is, whatever another page sets",
   server.surfaces = create(SurfacesSchema);
 });
 
-test("ticks that were cut short are counted, and a tooltip tells why all of them ended", async () => {
+test("ticks that were cut short are counted, and a tooltip says why all of them ended", async () => {
   const texts = () => Promise.all(["caps", "out-of-work", "unplaced"].map((id) => page.textContent(`#${id}`)));
   await expect.poll(texts).toEqual(["0", "0", "0"]);
   server.ticksEnded = create(TicksEndedSchema, { reached: 7n, crowded: 1n, capped: 2n, outOfWork: 4n, unplaced: 5n });
@@ -353,7 +353,7 @@ test("a fault shows its reason and can be re-armed", async () => {
   expect(server.fault).toBe("");
 });
 
-test("a server that says nothing, or speaks nonsense, is told to the user and the page recovers", async () => {
+test("a server that says nothing, or speaks nonsense, is reported to the user and the page recovers", async () => {
   server.silent = true;
   await page.waitForSelector("[data-cause=link]");
   server.silent = false;

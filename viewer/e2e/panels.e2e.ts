@@ -1,4 +1,4 @@
-// What the panels tell and for whom: materials by name, a spring that vibrates, another model, a telephone, a screen
+// What the panels show and for whom: materials by name, a spring that vibrates, another model, a telephone, a screen
 // reader, forced colours. Against a stand-in server.
 
 import type { Browser, Page } from "playwright-core";
@@ -35,7 +35,7 @@ test("materials that people know set the sliders, say where they are from, and f
   await openSection(page, "surface");
   await page.selectOption("#material", "Rubber");
   await expect.poll(() => server.surfaces).toMatchObject({ stiffness: 0.6, staticFriction: 1, dynamicFriction: 0.8 });
-  // The stand-in knows nothing of adhesion, so it is told nothing of it.
+  // The stand-in knows nothing of adhesion, so it is sent nothing of it.
   expect(server.surfaces.adhesionN).toBeUndefined();
   expect(await page.textContent("#material-origin")).toMatch(/measured/);
   await expectTidyLayout(page, kSizes[0]);
@@ -49,7 +49,7 @@ test("materials that people know set the sliders, say where they are from, and f
   await expect.poll(() => server.surfaces.stiffness).toBeUndefined();
 });
 
-test("a force that vibrates is told, with the device's limit in the plot, and no more when it has ceased", async () => {
+test("a force that vibrates is reported, with the device's limit in the plot, until it has ceased", async () => {
   expect(await page.locator("[data-cause=vibration]").count()).toBe(0);
   server.shaking = true;
   await page.waitForSelector("[data-cause=vibration]");
@@ -63,7 +63,7 @@ test("a force that vibrates is told, with the device's limit in the plot, and no
   await page.waitForSelector("[data-cause=vibration]", { state: "detached" });
 });
 
-test("a spring that the server holds below what is set is told at its slider", async () => {
+test("a spring that the server holds below what is set is shown at its slider", async () => {
   server.held_N_m = 563.6;
   await expect.poll(() => page.textContent("#stiffness-value")).toMatch(/^1.000.N\/m, held at 564$/);
   expect(await page.textContent("#softened")).toMatch(/held below 564/);
@@ -252,7 +252,7 @@ test("with forced colours a choice and the keys of the plots are still seen", as
   await context.close();
 });
 
-test("a scene that is on its way is told until it is there, the first one and one that a file puts in its place", async () => {
+test("a scene on its way is reported until it is there, the first one and one that a file brings", async () => {
   const late = await FakeServer.start();
   late.withholding = true;
   late.uploadBytes = 1000n;
@@ -262,10 +262,10 @@ test("a scene that is on its way is told until it is there, the first one and on
   const line = '[data-cause="receiving"]';
   await waiting.waitForSelector(line);
   expect(await waiting.textContent("#model-size")).toBe("not received yet");
-  late.tellMesh();
+  late.sendMesh();
   await expect.poll(() => waiting.textContent(line)).toMatch(/^Receiving the scene… 16.384.triangles so far$/);
   await screenshot(waiting, "panels_receiving");
-  late.tellScene();
+  late.sendScene();
   await waiting.waitForSelector(line, { state: "detached" });
   const opened = { name: "other", triangles: 0, primitives: 170688, world_per_device: 1, warnings: [] };
   await waiting.route("**/upload?*", (route) => route.fulfill({ json: opened }));

@@ -29,7 +29,7 @@ const kTwoMaterials = {
 };
 
 describe.skipIf(!kProgram)("the pointer", () => {
-  test("tells the materials of a scene file, each where it is", async () => {
+  test("names the materials of a scene file, each where it is", async () => {
     const file = join(mkdtempSync(join(tmpdir(), "hl-page-")), "two.hl.json");
     writeFileSync(file, JSON.stringify(kTwoMaterials));
     const touch = await startTouch(0, file);

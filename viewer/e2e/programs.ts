@@ -29,7 +29,7 @@ export async function startTouch(port: number, scene = "teapot", ...options: str
       return { process: child, url: match[1]! };
     }
   }
-  throw new Error("hl touch ended without telling its page");
+  throw new Error("hl touch ended without reporting its page");
 }
 
 /** Starts `hld` on a free port and waits until it is ready. */
@@ -43,7 +43,7 @@ export async function startServer(...options: string[]): Promise<Touch> {
       return { process: child, url: match[1]! };
     }
   }
-  throw new Error("hld ended without telling its page");
+  throw new Error("hld ended without reporting its page");
 }
 
 export function ended(child: ChildProcess): Promise<number | null> {

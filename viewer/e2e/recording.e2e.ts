@@ -42,7 +42,7 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
 
   const hl = (...words: string[]) => execFileSync(kProgram!, words, { encoding: "utf8" });
   const recordOf = (target: Page) => target.evaluate(() => document.getElementById("record")!.click());
-  const told = (target: Page) => target.textContent("#record-told");
+  const recordLine = (target: Page) => target.textContent("#record-told");
   const shown = (target: Page) => target.evaluate(() => window.__hl.recording);
   const frames = (count: number) => page.evaluate(async (wanted) => {
     for (let i = 0; i < wanted; ++i) await new Promise((resolve) => requestAnimationFrame(resolve));
@@ -50,15 +50,15 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
   type Given = Parameters<Page["setInputFiles"]>[1];
   const choose = (file: Given) => page.setInputFiles("#file", file);
 
-  test("records the session, tells other pages, and hl replay runs the file again bit for bit", async () => {
+  test("records the session, notifies other pages, and hl replay runs the file again bit for bit", async () => {
     const other = await context.newPage();
     await other.goto(touch.url);
     await other.waitForFunction(() => window.__hl.samples > 10);
     await openSection(page, "more");
     await recordOf(page);
-    await expect.poll(() => told(page)).toMatch(/^Recording: [2-9]/);
+    await expect.poll(() => recordLine(page)).toMatch(/^Recording: [2-9]/);
     expect(await page.textContent("#record")).toBe("Stop recording");
-    await expect.poll(() => told(other)).toMatch(/^Another page records: /);
+    await expect.poll(() => recordLine(other)).toMatch(/^Another page records: /);
     expect(await other.isDisabled("#record")).toBe(true);
     await other.close();
     await screenshot(page, "recording_runs");
@@ -80,9 +80,9 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
     await other.goto(touch.url);
     await other.waitForFunction(() => window.__hl.samples > 10);
     await recordOf(other);
-    await expect.poll(() => told(page)).toMatch(/^Another page records/);
+    await expect.poll(() => recordLine(page)).toMatch(/^Another page records/);
     await other.close();
-    await expect.poll(() => told(page)).toBe("");
+    await expect.poll(() => recordLine(page)).toBe("");
     expect(await page.isEnabled("#record")).toBe(true);
     expect((await page.request.get(`${touch.url}recording.hlr?owner=1`)).status()).toBe(404);
   });

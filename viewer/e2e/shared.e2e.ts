@@ -15,8 +15,8 @@ const textAt = async (touch: Touch, path: string) => (await fetch(touch.url + pa
 /** What `parent` has started by this name, by its id. */
 function childOf(parent: number, name: string): number {
   const tasks = readdirSync(`/proc/${parent}/task`);
-  const told = tasks.map((task) => readFileSync(`/proc/${parent}/task/${task}/children`, "utf8"));
-  const ids = told.flatMap((line) => line.split(" ").filter((id) => id !== "").map(Number));
+  const children = tasks.map((task) => readFileSync(`/proc/${parent}/task/${task}/children`, "utf8"));
+  const ids = children.flatMap((line) => line.split(" ").filter((id) => id !== "").map(Number));
   const found = ids.find((id) => readFileSync(`/proc/${id}/comm`, "utf8").trim() === name);
   if (found === undefined) throw new Error(`${parent} has started no ${name}`);
   return found;
@@ -68,8 +68,8 @@ describe.skipIf(!kProgram)("two servers of a shared world", () => {
     await pageOfAnna.uncheck("#explore");
     await expect.poll(async () => {
       const own = await pageOfAnna.evaluate(() => window.__hl.proxy!);
-      const told = await pageOfBert.evaluate(() => window.__hl.remoteHands[0]!.proxy!);
-      return Math.hypot(own.x - told.x, own.y - told.y, own.z - told.z);
+      const shown = await pageOfBert.evaluate(() => window.__hl.remoteHands[0]!.proxy!);
+      return Math.hypot(own.x - shown.x, own.y - shown.y, own.z - shown.z);
     }).toBeLessThan(1e-3);
     await screenshot(pageOfBert, "shared_world");
     for (const size of kSizes) await expectTidyLayout(pageOfBert, size);

@@ -54,7 +54,7 @@ test("a hand that is held when a recording opens is let go", async () => {
   await expect.poll(releases).toBe(before + 1);
 });
 
-test("what is told of the live force is away with it", async () => {
+test("what is reported of the live force is away with it", async () => {
   server.shaking = true;
   await page.waitForSelector("[data-cause=vibration]");
   await show(page, kWhole);
@@ -92,7 +92,7 @@ test("a second recording takes the place of the first, and the live scene comes 
   await page.waitForFunction(() => window.__hl.sceneName === "sphere" && window.__hl.triangles > 1000);
 });
 
-test("what was told of a recording is not shown while the server is silent", async () => {
+test("what was reported of a recording is not shown while the server is silent", async () => {
   server.recording = { phase: PageRecording_Phase.RUNNING, owner: 5, timeS: 1, bytes: 1n, maxTimeS: 600, maxBytes: 9n };
   await openSection(page, "more");
   await page.waitForSelector("#record-told:visible");

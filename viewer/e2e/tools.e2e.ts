@@ -65,7 +65,7 @@ afterAll(async () => {
 
 const eye = () => page.evaluate(() => [0, 0.05].map((y) => window.__hl.project({ x: 0.01, y, z: 0.02 })));
 
-test("tells the object under the pointer and its material, and lights it; the same of what is pressed", async () => {
+test("names the object under the pointer and its material, and lights it; the same of what is pressed", async () => {
   server.explore = false;
   server.place(3);
   await page.waitForFunction(() => window.__hl.objects === 3);

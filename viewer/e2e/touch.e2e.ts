@@ -109,7 +109,7 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     expectOutside(tap, first);
   });
 
-  test("surface controls act at once, and what the server says moves them", async () => {
+  test("surface controls act immediately, and what the server says moves them", async () => {
     await openSection(page, "surface");
     await page.fill("#surface-static-friction", "0.8");
     await page.fill("#surface-dynamic-friction", "0.4");
@@ -151,7 +151,7 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     expectOutside(tap, 0);
   });
 
-  test("a killed server is told, and a restarted one is found again", async () => {
+  test("a killed server is reported, and a restarted one is found again", async () => {
     const port = Number(new URL(touch.url).port);
     touch.process.kill("SIGKILL");
     await page.waitForSelector("[data-cause=link]");

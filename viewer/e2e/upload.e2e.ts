@@ -39,7 +39,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
 
   afterEach(() => page.mouse.up());
 
-  const told = () => page.locator(".notice.told span").last().textContent();
+  const lastNotice = () => page.locator(".notice.told span").last().textContent();
 
   async function choose(name: string, content: string): Promise<void> {
     const file = join(folder, name);
@@ -57,7 +57,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     const scene = await page.evaluate(() => window.__hl.sceneName);
     await choose("slow.obj", `${boxObj(4, 2, 3)}${"# long\n".repeat(300_000)}`);
     await page.click(".notice .cancel");
-    await expect.poll(told).toBe("slow.obj is not opened: cancelled.");
+    await expect.poll(lastNotice).toBe("slow.obj is not opened: cancelled.");
     await send(-1);
     expect(await page.locator('.notice[data-cause="file"]').count()).toBe(0);
     expect(await page.evaluate(() => window.__hl.sceneName)).toBe(scene);
@@ -66,7 +66,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
   test("is chosen, becomes the scene, fits the view and is felt where it is pressed", async () => {
     await choose("box.obj", boxObj(4, 2, 3));
     await page.waitForFunction(() => window.__hl.sceneName === "box.obj" && window.__hl.triangles === 12);
-    await expect.poll(told).toMatch(/^box\.obj: 12 triangles; 1.mm of the hand is 33\.3.mm of the scene\.$/);
+    await expect.poll(lastNotice).toMatch(/^box\.obj: 12 triangles; 1.mm of the hand is 33\.3.mm of the scene\.$/);
     await page.uncheck("#explore");
     const { low, high, middle } = await page.evaluate(() => {
       const { boundsMin: low, boundsMax: high } = window.__hl;
@@ -94,7 +94,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     await drop(page, "plate.obj", boxObj(1, 0.2, 1, "mtllib plate.mtl\n"));
     await page.waitForFunction(() => window.__hl.sceneName === "plate.obj");
     await expect.poll(() => page.isVisible("#drop-target")).toBe(false);
-    await expect.poll(told).toMatch(/^plate\.obj: 12 triangles; .* Comes alone, without plate\.mtl\.$/);
+    await expect.poll(lastNotice).toMatch(/^plate\.obj: 12 triangles; .* Comes alone, without plate\.mtl\.$/);
   });
 
   test.skipIf(!existsSync(join(dirname(kProgram ?? ""), "hl-cad")))("of CAD becomes the scene, in metres", async () => {
@@ -104,7 +104,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     expect(high.x).toBeCloseTo(0.03, 6);
     await screenshot(page, "upload_cad");
     await drop(page, "cut.step", "ISO-10303-21;\nHEADER;\n");
-    await expect.poll(told).toMatch(/^cut\.step: cannot be understood: it is no sound STEP file/);
+    await expect.poll(lastNotice).toMatch(/^cut\.step: cannot be understood: it is no sound STEP file/);
   });
 
   test("of the same name is another scene, too, and the view fits it", async () => {
@@ -124,7 +124,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
       '"scenes":[{"nodes":[0]}],"scene":0}', /^beside\.gltf: needs beside\.bin, and a file comes alone/],
   ])("that is no good gets one line, and the scene stays: %s", async (name, content, line) => {
     await drop(page, name, content);
-    await expect.poll(told).toMatch(line);
+    await expect.poll(lastNotice).toMatch(line);
     expect(await page.evaluate(() => [window.__hl.sceneName, window.__hl.boundsMax?.x])).toEqual(["plate.obj", 100]);
     complaints.errors.length = 0; // the browser logs the answer that refuses
   });
@@ -156,7 +156,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     for (const size of kSizes) await expectTidyLayout(page, size);
     await resize(page, kSizes[0]);
     await drop(page, "other.obj", boxObj(4, 2, 3));
-    await expect.poll(told).toMatch(/^other/);
+    await expect.poll(lastNotice).toMatch(/^other/);
     await page.emulateMedia({ colorScheme: "light" });
     await screenshot(page, "upload_light");
     await resize(page, kPhone);

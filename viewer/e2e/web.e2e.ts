@@ -71,7 +71,7 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
     expect(complaints).toEqual({ errors: [], foreign: [] });
   });
 
-  const told = () => page.locator(".notice.told span").last().textContent();
+  const lastNotice = () => page.locator(".notice.told span").last().textContent();
   const sceneOf = () => page.evaluate(() => [window.__hl.sceneName, window.__hl.triangles]);
   const steps = (then: number) => page.waitForFunction((time) => window.__hl.time_s! > time, then);
 
@@ -124,7 +124,7 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
     "opens %s, and it is felt where it is pressed", async (name, content) => {
       await drop(page, name, content);
       await expect.poll(sceneOf).toEqual([name, 12]);
-      await expect.poll(told).toMatch(new RegExp(`^${name}: 12 triangles; 1.mm of the hand is `));
+      await expect.poll(lastNotice).toMatch(new RegExp(`^${name}: 12 triangles; 1.mm of the hand is `));
       const side = await page.evaluate(() => window.__hl.boundsMax!.x);
       await press({ x: side / 2, y: side / 2, z: side });
       expect(await page.evaluate(() => window.__hl.proxy!.z)).toBeGreaterThan(side);
@@ -140,7 +140,7 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
     ["a.glb", "glTF", "a.glb cannot be opened here; recordings (.hlr) and 3-D models (.obj, .stl, .ply) can."],
   ])("that is no good gets one line, and the scene stays: %s", async (name, content, line) => {
     await drop(page, name, content);
-    await expect.poll(told).toMatch(line);
+    await expect.poll(lastNotice).toMatch(line);
     expect(await sceneOf()).toEqual(["box.ply", 12]);
     await steps(await page.evaluate(() => window.__hl.time_s!));
     complaints.errors.length = 0; // readers of files warn in the console

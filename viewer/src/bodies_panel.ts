@@ -7,7 +7,7 @@ import { LivePlot } from "./plots";
 import { SampleRing } from "./samples";
 import { formatCount, formatSi } from "./units";
 
-/** Part of the last second by which the bodies' time may stay behind before that is told. */
+/** Part of the last second by which the bodies' time may stay behind before that is reported. */
 const kSlow = 0.02;
 /** Over so long the delay is judged. */
 const kJudged_s = 1;
@@ -18,7 +18,7 @@ export class SlowMotion {
   private begin_: { time_s: number; lost_s: number } | undefined;
   private part_ = 0;
 
-  /** The part of the time that was lost, 0..1; undefined: too little to be told. */
+  /** The part of the time that was lost, 0..1; undefined: too little to be reported. */
   judge(time_s: number, lost_s: number): number | undefined {
     const begin = this.begin_;
     if (begin === undefined || time_s < begin.time_s || lost_s < begin.lost_s) {

@@ -13,7 +13,7 @@ export class ButtonInput {
   private timer_: number | undefined;
   private readonly press_: (buttons: number) => void;
 
-  /** `press` tells the server which buttons are down; bit i: button i. */
+  /** `press` sends to the server which buttons are down; bit i: button i. */
   constructor(press: (buttons: number) => void) {
     this.press_ = press;
     window.addEventListener("keydown", (event) => this.key(event, true));

@@ -17,13 +17,13 @@ export interface DeviceRow {
   readonly fault: string;
 }
 
-type Told = Pick<State, "forceN" | "safety" | "fault">;
+type Reported = Pick<State, "forceN" | "safety" | "fault">;
 
-function rowOf(label: string, model: string, told: Told): DeviceRow {
-  const force = knownVec(told.forceN);
+function rowOf(label: string, model: string, reported: Reported): DeviceRow {
+  const force = knownVec(reported.forceN);
   return {
-    label, model, safety: told.safety, force: formatFixed(force && length(force), "N", 2),
-    fault: told.safety === SafetyState.FAULT ? told.fault || "The server gave no reason." : "",
+    label, model, safety: reported.safety, force: formatFixed(force && length(force), "N", 2),
+    fault: reported.safety === SafetyState.FAULT ? reported.fault || "The server gave no reason." : "",
   };
 }
 
@@ -34,8 +34,8 @@ export function deviceRows(hello: Hello | undefined, state: State | undefined): 
     return [];
   }
   return devices.flatMap((device, number) => {
-    const told = number === 0 ? state : state.others[number - 1];
-    return told === undefined ? [] : [rowOf(device.label, device.name, told)];
+    const reported = number === 0 ? state : state.others[number - 1];
+    return reported === undefined ? [] : [rowOf(device.label, device.name, reported)];
   });
 }
 

@@ -1,4 +1,4 @@
-// The elements of index.html by their ids. One that is missing is a mistake in the page, found at once.
+// The elements of index.html by their ids. One that is missing is a mistake in the page, found immediately.
 
 export function element<T extends HTMLElement = HTMLElement>(id: string): T {
   const found = document.getElementById(id);

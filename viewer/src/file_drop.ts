@@ -1,8 +1,8 @@
 // A file that the user drops on the page or chooses. A table says what opens which ending; this module finds the opener,
-// tells how far it is, and what came of it. One file at a time.
+// reports how far it is, and the result. One file at a time.
 
 /** Shows a line while something goes on. `cancel`: what stops it, while that can be. */
-export type TellWhile = (line: string, cancel?: () => void) => void;
+export type ReportProgress = (line: string, cancel?: () => void) => void;
 
 export interface FileOpener {
   /** What it opens, in the plural, for a sentence. */
@@ -12,10 +12,10 @@ export interface FileOpener {
   /** In one line why it opens nothing now; undefined: it does. */
   refusal(): string | undefined;
   /**
-   * Opens a file. Resolves with the line that says what is open now, or that it was cancelled, or "" where that is plain
-   * to see; rejects with an Error whose message is one line for the user, and then what was open before still is.
+   * Opens a file. Resolves with the line that says what is open now, or that it was cancelled, or "" where the user
+   * sees that; rejects with an Error whose message is one line for the user, and then what was open before still is.
    */
-  open(file: File, tell: TellWhile): Promise<string>;
+  open(file: File, report: ReportProgress): Promise<string>;
 }
 
 export const kAnyEnding = "*";
@@ -23,12 +23,12 @@ export const kAnyEnding = "*";
 /** Where the lines go; Notices is one. */
 export interface FileLines {
   stand(cause: string, text: string | undefined, kind: "bad" | "warn" | "plain", cancel?: () => void): void;
-  tell(text: string, bad: boolean, about: string): void;
+  report(text: string, bad: boolean, about: string): void;
   settle(about: string): void;
 }
 
 const kShownName_characters = 60;
-/** Of a long name the end stays: it tells the server how to read the file, and the user what it is. */
+/** Of a long name the end stays: it states the format, to the server and to the user. */
 const kShownEnd_characters = 16;
 const kCause = "file";
 
@@ -93,9 +93,9 @@ export class FileDrop {
       return;
     }
     if (files.length > 1) {
-      this.lines_.tell(`${files.length} files at once: give one file.`, true, kCause);
+      this.lines_.report(`${files.length} files at once: give one file.`, true, kCause);
     } else if (this.busy_) {
-      this.lines_.tell(`Busy with another file: give ${shownName(file.name)} again when it is done.`, true, kCause);
+      this.lines_.report(`Busy with another file: give ${shownName(file.name)} again when it is done.`, true, kCause);
     } else {
       await this.open(file);
     }
@@ -105,7 +105,7 @@ export class FileDrop {
     const opener = openerOf(this.openers_, file.name);
     const refusal = opener === undefined ? unopened(this.openers_, file.name) : opener.refusal();
     if (opener === undefined || refusal !== undefined) {
-      this.lines_.tell(refusal!, true, kCause);
+      this.lines_.report(refusal!, true, kCause);
       return;
     }
     this.busy_ = true;
@@ -114,11 +114,11 @@ export class FileDrop {
       if (opened === "") {
         this.lines_.settle(kCause);
       } else {
-        this.lines_.tell(opened, false, kCause);
+        this.lines_.report(opened, false, kCause);
       }
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
-      this.lines_.tell((await isReadable(file)) ? why : unreadable(file.name), true, kCause);
+      this.lines_.report((await isReadable(file)) ? why : unreadable(file.name), true, kCause);
     } finally {
       this.busy_ = false;
       this.lines_.stand(kCause, undefined, "plain");

@@ -77,8 +77,8 @@ export class HandControls {
     this.hands.releaseAll();
   }
 
-  tell(change: SettingsChange): void {
-    this.hands.tell(change);
+  sendSettings(change: SettingsChange): void {
+    this.hands.sendSettings(change);
   }
 
   /** Once per drawn frame. */

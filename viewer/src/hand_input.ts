@@ -40,7 +40,7 @@ const kKeys: Readonly<Record<string, Vec>> = {
 
 /** A held key crosses this share of the window's height in a second. */
 const kKeyHeights_s = 0.2;
-/** A page that was hidden or busy must not jump: at most this much of a hold counts at once. */
+/** A page that was hidden or busy must not jump: at most this much of a hold counts in one step. */
 const kKeyStep_s = 0.05;
 /** One wheel notch (about 100 pixels) moves the hand as far as a drag of 30 pixels. */
 const kWheelShare = 0.3;

@@ -1,4 +1,4 @@
-// One hand of a server, as a state tells of it: the first one in the state itself, the others in its list. No DOM: it can
+// One hand of a server, as a state holds it: the first one in the state itself, the others in its list. No DOM: it can
 // be tested alone.
 
 import type { State, Stylus } from "./gen/hl_pb";
@@ -31,8 +31,8 @@ export function handOf(state: State | undefined, device: number): HandState | un
 }
 
 /**
- * Metres of the scene for one of the hand. A layout tells it of the first hand. The proxies of all have the same radius at
- * the hand, so that of another one in the scene tells its own scale.
+ * Metres of the scene for one of the hand. A layout gives it for the first hand. The proxies of all have the same
+ * radius at the hand, so that of another one in the scene gives its own scale.
  */
 export function worldPerHand(
   layout: Pick<Layout, "worldPerDevice" | "proxyRadius_m"> | undefined, hand: HandState | undefined,

@@ -64,7 +64,7 @@ export class LiveScene {
     return this.touched_;
   }
 
-  /** A server begins: nothing of what another one told is valid. Another scene is fitted anew, whatever its size. */
+  /** A server begins: nothing of what another one sent is valid. Another scene is fitted anew, whatever its size. */
   clear(name: string): void {
     if (name !== this.name_) {
       this.fitted_ = undefined;
@@ -96,7 +96,7 @@ export class LiveScene {
     this.coming_ = false;
   }
 
-  /** The server has the other scene, and tells it. */
+  /** The server has the other scene, and sends it. */
   taken(): void {
     this.coming_ = this.leaving_ !== undefined;
   }

@@ -98,7 +98,7 @@ class App {
   });
   private readonly recordPanel_ = new RecordPanel(
     (on, owner) => this.connection_.send(encodeRecord(on, owner)), () => this.live_.layout?.name ?? "",
-    (text, bad) => this.notices_.tell(text, bad, "recording"),
+    (text, bad) => this.notices_.report(text, bad, "recording"),
   );
   private readonly panel_: Panel;
   private readonly surfacePanel_: SurfacePanel;
@@ -122,8 +122,8 @@ class App {
     this.stage_.scene.add(this.live_.model.group, this.live_.marks.group, this.probe_.group, this.others_.group);
     this.panel_ = this.makePanel();
     this.memory_ = new ViewMemory();
-    this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
-    this.ledgerPanel_ = new LedgerPanel((change) => this.tell(change));
+    this.surfacePanel_ = new SurfacePanel((change) => this.sendSettings(change));
+    this.ledgerPanel_ = new LedgerPanel((change) => this.sendSettings(change));
     this.volumePanel_ = new VolumePanel((surface, value, below) => this.send(encodeIso(surface, value, below)));
     this.timeline_ = this.makeTimeline();
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
@@ -134,8 +134,8 @@ class App {
     this.connection_ = new Connection(address.href, {
       message: (message) => this.receive(message),
       link: (link) => this.linkChanged(link),
-      refused: (line) => this.notices_.tell(line, true),
-      violation: (reason) => this.notices_.tell(`Connection closed: ${reason}.`, true),
+      refused: (line) => this.notices_.report(line, true),
+      violation: (reason) => this.notices_.report(`Connection closed: ${reason}.`, true),
     });
     publishDebugState({
       link: () => this.connection_.state,
@@ -152,7 +152,7 @@ class App {
 
   private makePanel(): Panel {
     return new Panel({
-      settings: (change) => this.tell(change),
+      settings: (change) => this.sendSettings(change),
       rearm: () => this.send(encodeRearm()),
       theme: (choice) => this.theme_.choose(choice),
       planes: (shown) => this.probe_.setPlanesShown(shown),
@@ -192,9 +192,9 @@ class App {
     });
   }
 
-  /** What the server goes on telling of its scene is kept; nothing is sent to it that changes anything. */
+  /** What the server goes on sending of its scene is kept; nothing is sent to it that changes anything. */
   private leaveLive(): void {
-    // Before the session is out of reach: the server is told to let go.
+    // Before the session is out of reach: the server gets the release.
     this.hands_.input.cancel();
     this.hands_.active = false;
     this.held_ = new SceneHold(this.live_.store);
@@ -246,8 +246,8 @@ class App {
     }
   }
 
-  private tell(change: SettingsChange): void {
-    this.hands_.tell(change);
+  private sendSettings(change: SettingsChange): void {
+    this.hands_.sendSettings(change);
   }
 
   private receive(message: Incoming): void {
@@ -276,7 +276,7 @@ class App {
         this.takeState(message.state);
         break;
       case "notice":
-        this.notices_.tell(message.notice.text, message.notice.fatal);
+        this.notices_.report(message.notice.text, message.notice.fatal);
         break;
       case "unknown":
         break;
@@ -421,7 +421,7 @@ class App {
     this.panel_.showState(state, this.hands_.hands.now?.exploring ?? false, force_N, state.samples.at(-1)?.penetrationM);
     this.others_.showNumbers(state);
     this.announcer_.hear(this.touchedInWords(state), force_N, performance.now());
-    this.tellVibration();
+    this.showVibration();
     this.surfacePanel_.showSurfaces(state.surfaces);
     this.ledgerPanel_.show(state.ledger);
     this.volumePanel_.follow();
@@ -435,7 +435,7 @@ class App {
     return state.contacts.length === 0 ? "" : several && objects.length > 0 ? objects.join(" and ") : "the model";
   }
 
-  private tellVibration(): void {
+  private showVibration(): void {
     const { times, values } = this.plots_.samples.last(0, kVibrationWindow_s);
     const swing = this.vibration_.judge(times, values);
     const text = swing && `The force vibrates by ${formatFixed(swing.force_N, "N", 1)} at ` +

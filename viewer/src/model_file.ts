@@ -1,6 +1,6 @@
 // Opens a model file: sends it to the server, which reads it and puts it in the place of the scene.
 
-import { kAnyEnding, shownName, type FileOpener, type TellWhile } from "./file_drop";
+import { kAnyEnding, shownName, type FileOpener, type ReportProgress } from "./file_drop";
 import { openedLine, type Opened } from "./opened_line";
 import { formatSi } from "./units";
 
@@ -17,7 +17,7 @@ export class ModelFile implements FileOpener {
     return this.limit_bytes > 0 ? undefined : "This server takes no files: start it with hl touch --upload on.";
   }
 
-  open(file: File, tell: TellWhile): Promise<string> {
+  open(file: File, report: ReportProgress): Promise<string> {
     const name = shownName(file.name);
     if (file.size === 0) {
       return Promise.reject(new Error(`${name} is empty.`));
@@ -27,7 +27,7 @@ export class ModelFile implements FileOpener {
         `${name} has ${formatSi(file.size, "B")}; this server takes ${formatSi(this.limit_bytes, "B")} at most.`));
     }
     this.expect_(true);
-    return new Promise<string>((resolve, reject) => this.send(file, name, { tell, resolve, reject })).catch(
+    return new Promise<string>((resolve, reject) => this.send(file, name, { report, resolve, reject })).catch(
       (error: unknown) => {
         this.expect_(false);
         throw error;
@@ -36,18 +36,18 @@ export class ModelFile implements FileOpener {
   }
 
   private send(file: File, name: string, on: {
-    tell: TellWhile; resolve(line: string): void; reject(error: Error): void;
+    report: ReportProgress; resolve(line: string): void; reject(error: Error): void;
   }): void {
     const request = new XMLHttpRequest();
     request.upload.onprogress = ({ loaded, total }) => {
-      const part = Math.floor((100 * loaded) / Math.max(total, 1));
-      on.tell(`Sending ${name}: ${formatSi(loaded, "B")} of ${formatSi(total, "B")}, ${part} %`, () => request.abort());
+      const part = `${formatSi(total, "B")}, ${Math.floor((100 * loaded) / Math.max(total, 1))} %`;
+      on.report(`Sending ${name}: ${formatSi(loaded, "B")} of ${part}`, () => request.abort());
     };
     request.onabort = () => {
       this.expect_(false);
       on.resolve(`${name} is not opened: cancelled.`);
     };
-    request.upload.onload = () => on.tell(`Reading ${name}…`);
+    request.upload.onload = () => on.report(`Reading ${name}…`);
     request.onload = () => {
       if (request.status === 200) {
         const opened = JSON.parse(request.responseText) as Opened;

@@ -1,5 +1,5 @@
-// Everything that can be touched, in three.js: a view for each mesh, told of its places by the layout and moved by the
-// states. What the proxy touches has a tint, when there is more than one object to tell apart.
+// Everything that can be touched, in three.js: a view for each mesh, with its places from the layout and moved by the
+// states. What the proxy touches has a tint, when there is more than one object to distinguish.
 
 import * as THREE from "three";
 import type { PlacedMesh } from "./gen/hl_pb";

@@ -52,8 +52,8 @@ interface Hold {
 export class MovedHands {
   private readonly hooks_: MovedHandsHooks;
   private devices_: readonly DeviceInfo[] = [];
-  /** How many of the devices the newest state tells. */
-  private told_ = 0;
+  /** How many of the devices the newest state reports. */
+  private reported_ = 0;
   private chosen_ = 0;
   private together_ = false;
   private hold_: Hold | undefined;
@@ -87,7 +87,7 @@ export class MovedHands {
   /** A server begins. The choice stays as long as it has such a hand. */
   showHello(hello: Hello): void {
     this.devices_ = hello.devices.length > 0 ? hello.devices : hello.device ? [hello.device] : [];
-    this.told_ = this.devices_.length;
+    this.reported_ = this.devices_.length;
     this.hold_ = undefined;
     this.left_.clear();
     this.chosen_ = this.movable ? this.chosen_ : this.firstHand;
@@ -97,9 +97,9 @@ export class MovedHands {
 
   /** A state came. */
   follow(state: State): void {
-    const told = Math.min(this.devices_.length, 1 + state.others.length);
-    if (told !== this.told_) {
-      this.told_ = told;
+    const reported = Math.min(this.devices_.length, 1 + state.others.length);
+    if (reported !== this.reported_) {
+      this.reported_ = reported;
       this.choose(this.movable ? this.chosen_ : this.firstHand);
       this.setTogether(this.together_);
     }
@@ -193,8 +193,8 @@ export class MovedHands {
     this.hooks_.send(encodeHandTurn(turned, gripper_rad, this.chosen_));
   }
 
-  /** The hands that are moved explore; all have one grip, as states tell that of the first alone; the rest is its. */
-  tell(change: SettingsChange): void {
+  /** The hands that are moved explore; all have one grip, as states report that of the first alone; the rest is its. */
+  sendSettings(change: SettingsChange): void {
     const { explore, handFirm, ...rest } = change;
     if (explore !== undefined) {
       this.moved.forEach((device) => this.hooks_.send(encodeSettings({ explore }, device)));
@@ -206,7 +206,7 @@ export class MovedHands {
   }
 
   private get simulated(): number[] {
-    return [...this.devices_.keys()].filter((i) => i < this.told_ && this.devices_[i]!.simulatedHand);
+    return [...this.devices_.keys()].filter((i) => i < this.reported_ && this.devices_[i]!.simulatedHand);
   }
 
   private get several(): boolean {

@@ -1,9 +1,9 @@
-// Banners at the view. A keyed banner stands until its cause is gone; a line that is told can be closed.
+// Banners at the view. A keyed banner stands until its cause is gone; a line that is reported can be closed.
 
 import { element } from "./elements";
-import { lifeOf, stayingWith, type ToldLine } from "./told_lines";
+import { lifeOf, stayingWith, type ReportedLine } from "./reported_lines";
 
-interface Told extends ToldLine {
+interface ReportedBanner extends ReportedLine {
   readonly banner: HTMLElement;
 }
 
@@ -32,7 +32,7 @@ function showCancel(banner: HTMLElement, cancel: (() => void) | undefined): void
 export class Notices {
   private readonly host_ = element("notices");
   private readonly standing_ = new Map<string, HTMLElement>();
-  private told_: readonly Told[] = [];
+  private reported_: readonly ReportedBanner[] = [];
 
   /** Shows or replaces the banner of one cause; undefined removes it. `cancel`: what a button beside the text does. */
   stand(cause: string, text: string | undefined, kind: "bad" | "warn" | "plain" = "bad", cancel?: () => void): void {
@@ -57,10 +57,10 @@ export class Notices {
     }
   }
 
-  /** A line with a button to close it. `about`: what the user does that it tells of; told_lines.ts: when it goes. */
-  tell(text: string, bad: boolean, about?: string): void {
-    const line: Told = { text, bad, about, banner: this.made(text, bad) };
-    this.keep([...stayingWith(this.told_, line), line]);
+  /** A line with a button to close it. `about`: the user's action that it is about; reported_lines.ts: when it goes. */
+  report(text: string, bad: boolean, about?: string): void {
+    const line: ReportedBanner = { text, bad, about, banner: this.made(text, bad) };
+    this.keep([...stayingWith(this.reported_, line), line]);
     this.host_.append(line.banner);
     const life_ms = lifeOf(line);
     if (life_ms !== undefined) {
@@ -68,9 +68,9 @@ export class Notices {
     }
   }
 
-  /** It went well, and there is nothing to tell: what was told of it is past. */
+  /** It went well, and there is nothing to report: what was reported of it is past. */
   settle(about: string): void {
-    this.keep(this.told_.filter((line) => line.about !== about));
+    this.keep(this.reported_.filter((line) => line.about !== about));
   }
 
   private made(text: string, bad: boolean): HTMLElement {
@@ -99,12 +99,12 @@ export class Notices {
   }
 
   private close(banner: HTMLElement): void {
-    this.keep(this.told_.filter((line) => line.banner !== banner));
+    this.keep(this.reported_.filter((line) => line.banner !== banner));
   }
 
-  private keep(lines: readonly Told[]): void {
+  private keep(lines: readonly ReportedBanner[]): void {
     const kept = new Set(lines);
-    this.told_.filter((line) => !kept.has(line)).forEach(({ banner }) => banner.remove());
-    this.told_ = lines;
+    this.reported_.filter((line) => !kept.has(line)).forEach(({ banner }) => banner.remove());
+    this.reported_ = lines;
   }
 }

@@ -26,8 +26,8 @@ export function describeObject(
     names.push(`id ${placed.object}`, ...name, `of client ${placed.session}`);
   }
   const surface = placed?.materials[material];
-  const told = surface === undefined ? "" : `: ${describeMaterial({ ...surface, ...over })}`;
-  return `${names.join(", ")}${told}`;
+  const described = surface === undefined ? "" : `: ${describeMaterial({ ...surface, ...over })}`;
+  return `${names.join(", ")}${described}`;
 }
 
 /** What a texture modulates is said so; what is as if there were nothing is left out. */

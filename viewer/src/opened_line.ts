@@ -1,4 +1,4 @@
-// What is told of a model that has been opened.
+// What is reported of a model that has been opened.
 
 import { formatCount, formatSi, kThinSpace, nounFor } from "./units";
 

@@ -92,7 +92,7 @@ export class OtherDevices {
     rows.forEach((row, number) => this.fill(this.rows_[number]!, row));
   }
 
-  /** The server is not heard: what it told last may not be so now. */
+  /** The server is not heard: what it sent last may no longer hold. */
   lose(): void {
     this.rows_.forEach(({ force }) => (force.textContent = kUnknown));
   }
@@ -100,26 +100,26 @@ export class OtherDevices {
   /** Once per drawn frame. */
   showProbes(state: State | undefined, camera: THREE.Camera, view: ViewFrame): void {
     this.probes_.forEach((probe, i) => {
-      const told = state?.others[i];
-      if (told?.finger === undefined || told.proxy === undefined || told.forceN === undefined) {
+      const other = state?.others[i];
+      if (other?.finger === undefined || other.proxy === undefined || other.forceN === undefined) {
         probe.update(undefined);
         return;
       }
-      probe.setRadius(told.proxyRadius);
-      const { finger, proxy, forceN, stylus } = told;
+      probe.setRadius(other.proxyRadius);
+      const { finger, proxy, forceN, stylus } = other;
       probe.update(create(StateSchema, { finger, proxy, forceN, ...(stylus && { stylus }) }));
       probe.face(camera, metresPerPixel(view, depthOf(view, proxy)));
     });
   }
 
-  private fill(row: RowElements, told: DeviceRow): void {
-    row.root.dataset.safety = SafetyState[told.safety] ?? "OFF";
-    row.name.textContent = told.label;
-    row.name.title = told.model;
-    row.move.setAttribute("aria-label", `Move this hand: ${told.label}`);
-    row.force.textContent = told.force;
-    row.rearm.hidden = row.fault.hidden = told.fault === "";
-    row.fault.textContent = told.fault;
+  private fill(row: RowElements, values: DeviceRow): void {
+    row.root.dataset.safety = SafetyState[values.safety] ?? "OFF";
+    row.name.textContent = values.label;
+    row.name.title = values.model;
+    row.move.setAttribute("aria-label", `Move this hand: ${values.label}`);
+    row.force.textContent = values.force;
+    row.rearm.hidden = row.fault.hidden = values.fault === "";
+    row.fault.textContent = values.fault;
   }
 
   private makeRow(number: number): RowElements {

@@ -1,5 +1,5 @@
 // Sliders fire with every pixel of a drag; the server closes a page that sends hundreds of messages a second. Here the
-// first call acts at once, later ones at most once per period, and the last one is never lost.
+// first call acts immediately, later ones at most once per period, and the last one is never lost.
 
 /** A slider sends at most so often. */
 export const kSendPeriod_ms = 30;

@@ -64,7 +64,7 @@ export class Panel {
 
   constructor(actions: PanelActions) {
     this.actions_ = actions;
-    this.onCheck("explore", (on) => this.tell("explore", on, { explore: on }));
+    this.onCheck("explore", (on) => this.sendSettings("explore", on, { explore: on }));
     this.onCheck("planes", (on) => actions.planes(on));
     this.onCheck("cones", (on) => actions.cones(on));
     this.onCheck("marks", (on) => actions.marks(on));
@@ -73,7 +73,7 @@ export class Panel {
     this.onCheck("drop", (on) => actions.dropLine(on));
     this.onCheck("stylus", (on) => actions.stylus(on));
     this.onCheck("empty-orbit", (on) => actions.orbitFromEmpty(on));
-    this.onChoice("grip", (value) => this.tell("grip", value === "firm", { handFirm: value === "firm" }));
+    this.onChoice("grip", (value) => this.sendSettings("grip", value === "firm", { handFirm: value === "firm" }));
     this.onChoice("theme", (value) => actions.theme(value as ThemeChoice));
     this.onStiffness();
     element("rearm").addEventListener("click", () => actions.rearm());
@@ -261,7 +261,7 @@ export class Panel {
     share.addEventListener("input", act);
   }
 
-  private tell(control: string, value: boolean, change: SettingsChange): void {
+  private sendSettings(control: string, value: boolean, change: SettingsChange): void {
     this.pending_.set(control, value, performance.now());
     this.actions_.settings(change);
   }

@@ -1,5 +1,5 @@
 // What is under the pointer, and the ways of the hand: presses on the model, the way back into view, what lies straight
-// below a place, and the marks that tell of it.
+// below a place, and the marks that show it.
 
 import { element, setText } from "./elements";
 import type { State } from "./gen/hl_pb";
@@ -110,7 +110,7 @@ export class Pointing {
     this.finder_.show(finger && this.stage_.project(finger), this.stage_.visible, distance_m);
   }
 
-  /** Tells what is pressed or else under the pointer: the object and its material there. */
+  /** Shows what is pressed or else under the pointer: the object and its material there. */
   showPicked(pressed: SurfaceHit | undefined): void {
     const placed = this.live_.layout?.placed ?? [];
     const at = this.pointer_px_;

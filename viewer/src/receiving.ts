@@ -1,4 +1,4 @@
-// What is told while a scene is on its way: a large one takes the server and the network many seconds, in which a page
+// What is shown while a scene is on its way: a large one takes the server and the network many seconds, in which a page
 // without it looks as if it had none.
 
 import { formatCount, kNoBreak, nounFor } from "./units";

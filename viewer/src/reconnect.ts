@@ -1,10 +1,10 @@
 // When to try the server again, and when to call it gone. Delays double from a quarter of a second to two seconds: a
-// restarted server is found at once, a missing one costs nothing. Pure: time comes from outside.
+// restarted server is found soon, a missing one costs nothing. Pure: time comes from outside.
 
 export const kFirstDelay_ms = 250;
 export const kLongestDelay_ms = 2000;
 
-/** The server sends 60 states a second; this long without one is worth telling, and... */
+/** The server sends 60 states a second; this long without one is to be reported, and... */
 export const kSilent_ms = 2500;
 /** ...this long without one is a connection to give up, for instance a suspended server or a lost network. */
 export const kGiveUp_ms = 8000;

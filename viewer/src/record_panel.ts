@@ -1,5 +1,5 @@
-// The button that records the session on the server, and the line that tells of it. The recording of another page is
-// told too; there is one at a time.
+// The button that records the session on the server, and the line about it. The recording of another page is
+// shown too; there is one at a time.
 
 import { element, setText } from "./elements";
 import { PageRecording_Phase as Phase, type PageRecording } from "./gen/hl_pb";
@@ -13,8 +13,8 @@ export class RecordPanel {
   private readonly clerk_: RecordingClerk;
 
   constructor(
-    send: SendRecord, private readonly sceneName_: () => string, private readonly tell_: (text: string, bad: boolean) => void,
-  ) {
+    send: SendRecord, private readonly sceneName_: () => string,
+    private readonly report_: (text: string, bad: boolean) => void) {
     this.clerk_ = new RecordingClerk(send);
     element("record").addEventListener("click", () => this.clerk_.press(newOwner()));
   }
@@ -26,7 +26,7 @@ export class RecordPanel {
     this.show(recording, news);
   }
 
-  /** The server is not heard: what it told last may not be so now. */
+  /** The server is not heard: what it sent last may no longer hold. */
   lose(): void {
     element<HTMLButtonElement>("record").disabled = true;
     element("record-told").hidden = true;
@@ -40,11 +40,11 @@ export class RecordPanel {
     element("record-told").hidden = news.line === "";
     setText("record-told", news.line);
     if (news.refused !== undefined) {
-      this.tell_(news.refused, true);
+      this.report_(news.refused, true);
     }
     if (news.ready !== undefined && recording?.phase === Phase.READY) {
       this.fetch(news.ready);
-      this.tell_(`The recording is saved (${news.end}). hl replay runs it again; this page opens it.`, false);
+      this.report_(`The recording is saved (${news.end}). hl replay runs it again; this page opens it.`, false);
     }
   }
 

@@ -12,7 +12,7 @@ export interface RecordingNews {
   readonly own: boolean;
   /** Another page's does. */
   readonly ofAnother: boolean;
-  /** To be shown while there is something to tell. */
+  /** To be shown while there is something to report. */
   readonly line: string;
   readonly limits: string;
   /** Once: why there is no recording. */

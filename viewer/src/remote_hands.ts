@@ -45,12 +45,12 @@ export class RemoteHands {
 
   /** Once per drawn frame. */
   showProbes(state: State | undefined, camera: THREE.Camera, view: ViewFrame): void {
-    const told = handsByKey(state?.remote ?? []);
+    const remote = handsByKey(state?.remote ?? []);
     for (const [key, hand] of this.hands_) {
-      if (!told.has(key)) this.putAway(key, hand);
+      if (!remote.has(key)) this.putAway(key, hand);
     }
-    told.forEach((hand, key) => this.showHand(key, hand, camera, view));
-    this.showNames(state, told, view);
+    remote.forEach((hand, key) => this.showHand(key, hand, camera, view));
+    this.showNames(state, remote, view);
   }
 
   private putAway(key: string, hand: Hand): void {
@@ -59,20 +59,20 @@ export class RemoteHands {
     this.spare_.push(hand);
   }
 
-  private showHand(key: string, told: OtherDevice, camera: THREE.Camera, view: ViewFrame): void {
-    const { finger, proxy, forceN, stylus } = told;
+  private showHand(key: string, hand: OtherDevice, camera: THREE.Camera, view: ViewFrame): void {
+    const { finger, proxy, forceN, stylus } = hand;
     const { probe, label } = this.hands_.get(key) ?? this.takeOut(key);
-    const colour = this.colourOf(this.colours_.colourOf(told.server));
+    const colour = this.colourOf(this.colours_.colourOf(hand.server));
     probe.setColour(colour);
-    probe.setRadius(told.proxyRadius);
+    probe.setRadius(hand.proxyRadius);
     probe.update(finger && proxy && forceN && create(StateSchema, { finger, proxy, forceN, ...(stylus && { stylus }) }));
     if (proxy !== undefined) probe.face(camera, metresPerPixel(view, depthOf(view, proxy)));
-    label.setText(nameOfHand(told), colour, this.colourOf("card"));
+    label.setText(nameOfHand(hand), colour, this.colourOf("card"));
   }
 
-  private showNames(state: State | undefined, told: ReadonlyMap<string, OtherDevice>, view: ViewFrame): void {
+  private showNames(state: State | undefined, remote: ReadonlyMap<string, OtherDevice>, view: ViewFrame): void {
     const named: NamedHand[] = [];
-    told.forEach((hand, key) => {
+    remote.forEach((hand, key) => {
       const { probe, label } = this.hands_.get(key)!;
       const at = probe.group.visible ? markOf(hand, view) : undefined;
       label.sprite.visible = at !== undefined;
@@ -81,7 +81,7 @@ export class RemoteHands {
     const own = state === undefined ? [] : [markOf(state, view), ...state.others.map((hand) => markOf(hand, view))];
     this.places_ = placeNames(named, own.filter((mark) => mark !== undefined), this.places_);
     this.places_.forEach((place, key) => {
-      const proxy = knownVec(told.get(key)!.proxy)!;
+      const proxy = knownVec(remote.get(key)!.proxy)!;
       this.hands_.get(key)!.label.stand(proxy, place, metresPerPixel(view, depthOf(view, proxy)));
     });
   }

@@ -1,5 +1,5 @@
 // Rigid bodies and joints as a scene file has them: where they are now, and at rest. A joint's coordinate is 0 where its
-// file has the bodies, so limits, rest and table are told from where it is now.
+// file has the bodies, so limits, rest and table count from where it is now.
 
 import { clone, create, toJson } from "@bufbuild/protobuf";
 import {

@@ -155,7 +155,7 @@ const kNone = new Uint32Array();
 /** Of an object that has places alone. */
 const kNothing: Part = { triangles: kNone, segments: kNone, points: kNone, vertices: kNone };
 
-/** Undefined: nothing has this material. Lines and points have the first: the page is not told theirs. */
+/** Undefined: nothing has this material. Lines and points have the first: the page does not get theirs. */
 function partOf(mesh: Mesh, material: number): Part | undefined {
   const { triangleMaterials: materials } = mesh;
   const [segments, points] = material === 0 ? [mesh.segments, mesh.points] : [kNone, kNone];
@@ -225,7 +225,7 @@ function* list(name: string, count: number, at: (index: number) => number): Gene
 
 type MaterialJson = Record<string, number | string>;
 
-/** As a Material of the schema. A quantity that only an image says is left out, which `textured` is told. */
+/** As a Material of the schema. A quantity that only an image gives is left out: then `textured` is called. */
 function materialOf(surface: SurfaceSettings, over: SurfaceSettings, textured: () => void): MaterialJson {
   const felt: SurfaceSettings = { ...surface, ...over };
   const material: MaterialJson = {};

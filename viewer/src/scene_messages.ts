@@ -1,5 +1,5 @@
-// What the server tells of the scene, as values the page can trust: meshes with every index proven to be in range, layouts
-// and moves with a whole pose for each object.
+// What the server sends of the scene, as values the page can trust: meshes with every index proven to be in range,
+// layouts and moves with a whole pose for each object.
 
 import { checkPlaces, type FeltPlaces } from "./felt_places";
 import type { PlacedJoint, PlacedMesh, SceneLayout, SceneMesh, State, SurfaceImage } from "./gen/hl_pb";

@@ -36,10 +36,10 @@ export class Sharing {
     // Also where a browser refuses to copy: there the user takes it from the notice.
     const copied = await navigator.clipboard?.writeText(link).then(() => true, () => false);
     if (copied === true) {
-      notices.tell("The link is copied.", false, "link");
+      notices.report("The link is copied.", false, "link");
     } else {
       notices.settle("link");
-      notices.tell(`The link: ${link}`, false);
+      notices.report(`The link: ${link}`, false);
     }
   }
 
@@ -63,10 +63,10 @@ export class Sharing {
       if (lacking === undefined) {
         notices.settle("scene file");
       } else {
-        notices.tell(lacking, false, "scene file");
+        notices.report(lacking, false, "scene file");
       }
     } catch (error) {
-      notices.tell(error instanceof Error ? error.message : String(error), true, "scene file");
+      notices.report(error instanceof Error ? error.message : String(error), true, "scene file");
     }
   }
 

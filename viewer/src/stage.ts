@@ -38,7 +38,7 @@ export class Stage {
   private untouched_ = true;
   private drawn_ms_ = 0;
 
-  /** `cannotDraw` is told why nothing is drawn, and undefined when it is again. */
+  /** `cannotDraw` gets why nothing is drawn, and undefined when it is again. */
   constructor(canvas: HTMLCanvasElement, cannotDraw: (reason: string | undefined) => void) {
     this.canvas = canvas;
     this.renderer_ = makeRenderer(canvas);

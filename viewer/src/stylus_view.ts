@@ -1,4 +1,4 @@
-// The stylus that the hand holds: a pen with its tip at the proxy, turned as the device tells; with a gripper, two
+// The stylus that the hand holds: a pen with its tip at the proxy, turned as the device reports; with a gripper, two
 // fingers that open as its do. It is drawn as long as a hand is in the scene, so it is no size to measure by.
 
 import * as THREE from "three";

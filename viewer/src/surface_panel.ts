@@ -1,4 +1,4 @@
-// The Surface section: sliders and switches that act at once on every surface. What the server says moves the
+// The Surface section: sliders and switches that act immediately on every surface. What the server says moves the
 // controls, so that two pages agree; pending.ts says when it may.
 
 import { element, onLetGo, setText } from "./elements";

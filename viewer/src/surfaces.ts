@@ -1,5 +1,5 @@
-// What the user sets for every surface at once, over what the scene says. Which numbers there are, their ranges and
-// their words the server tells (Hello.quantities).
+// What the user sets for all surfaces together, over what the scene says. Which numbers there are, their ranges and
+// their words the server sends (Hello.quantities).
 
 import type { QuantityInfo, Surfaces } from "./gen/hl_pb";
 import { formatFixed } from "./units";

@@ -20,7 +20,7 @@ export class ThemeSwitch {
   private readonly system_ = window.matchMedia("(prefers-color-scheme: dark)");
   private readonly changed_: (theme: Theme) => void;
 
-  /** Calls `changed` at once and on every change after. */
+  /** Calls `changed` immediately and on every change after. */
   constructor(changed: (theme: Theme) => void) {
     this.changed_ = changed;
     this.choice_ = parseChoice(readStorage());

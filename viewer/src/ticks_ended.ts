@@ -4,7 +4,7 @@
 import { TicksEndedSchema, type TicksEnded } from "./gen/hl_pb";
 import { formatCount } from "./units";
 
-/** By the names of the protocol, those that have occurred; empty when none has, or when the server does not tell. */
+/** By the names of the protocol, those that have occurred; empty when none has, or when the server sends none. */
 export function describeEndings(ticks: TicksEnded | undefined): string {
   if (ticks === undefined) {
     return "";

@@ -27,9 +27,9 @@ export class TurnInput {
   private gripper_rad_: number | undefined;
   private device_: DeviceInfo | undefined;
 
-  /** `tell` gets what has changed; `enabled`: a simulated hand holds a device that is live. */
+  /** `send` gets what has changed; `enabled`: a simulated hand holds a device that is live. */
   constructor(
-    private readonly tell_: (turned: THREE.Quaternion | undefined, gripper_rad: number | undefined) => void,
+    private readonly send_: (turned: THREE.Quaternion | undefined, gripper_rad: number | undefined) => void,
     private readonly camera_: () => THREE.Quaternion,
     private readonly stylus_: () => Stylus | undefined,
     private readonly enabled_: () => boolean,
@@ -59,7 +59,7 @@ export class TurnInput {
     if (turned === undefined && gripper_rad === undefined) return;
     this.unsent_ = false;
     this.gripper_rad_ = undefined;
-    this.tell_(turned, gripper_rad);
+    this.send_(turned, gripper_rad);
   }
 
   private letGo(): void {

@@ -9,8 +9,8 @@ const kMin_N = 1;
 const kMin_Hz = 15;
 /** Crossings of the mean count when the force goes this part of its swing beyond. */
 const kBeyond = 0.15;
-/** It is told for at least so long after it has ceased. */
-const kTold_s = 1;
+/** It is reported for at least so long after it has ceased. */
+const kReported_s = 1;
 
 export interface Swing {
   /** Peak to peak. */
@@ -37,17 +37,17 @@ export function swingOf(times: readonly number[], forces_N: readonly number[]): 
 }
 
 export class VibrationAlarm {
-  private told_: { swing: Swing; at_s: number } | undefined;
+  private reported_: { swing: Swing; at_s: number } | undefined;
 
-  /** What the user is to be told of, if anything, at the time of the last sample. */
+  /** What is to be reported to the user, if anything, at the time of the last sample. */
   judge(times: readonly number[], forces_N: readonly number[]): Swing | undefined {
     const now_s = times[times.length - 1] ?? 0;
     const swing = swingOf(times, forces_N);
     if (swing.force_N >= kMin_N && swing.rate_Hz >= kMin_Hz) {
-      this.told_ = { swing, at_s: now_s };
-    } else if (this.told_ !== undefined && Math.abs(now_s - this.told_.at_s) > kTold_s) {
-      this.told_ = undefined;
+      this.reported_ = { swing, at_s: now_s };
+    } else if (this.reported_ !== undefined && Math.abs(now_s - this.reported_.at_s) > kReported_s) {
+      this.reported_ = undefined;
     }
-    return this.told_?.swing;
+    return this.reported_?.swing;
   }
 }

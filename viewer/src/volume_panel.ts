@@ -1,5 +1,5 @@
 // A slider for the iso value of each surface of a volume, and a box that says on which side of it the matter is: they
-// act at once, on everybody who touches it. The server tells both with each layout; pending.ts says when they follow.
+// act immediately, for all who touch it. The server sends both with each layout; pending.ts says when they follow.
 
 import { element, onLetGo } from "./elements";
 import { paced } from "./pace";

@@ -42,7 +42,7 @@ function isHounsfield({ low, high }: Volume): boolean {
   return low <= -900 && low >= -3100 && high >= 100 && high <= 33000;
 }
 
-/** Which of several it is: its name, and its number where the name does not tell it from the others. */
+/** Which of several it is: its name, and its number where the name does not distinguish it. */
 function wordsFor(volumes: readonly Volume[], index: number): string {
   const { name } = volumes[index]!;
   const alone = volumes.filter((other) => other.name === name).length === 1;

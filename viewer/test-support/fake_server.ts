@@ -1,5 +1,5 @@
 // A small stand-in for `hl touch`: serves the built page and a sphere with an analytic proxy, and does on command what
-// a real server does rarely (faults, silence, garbage). For tests of the page alone; the forces are a plain spring.
+// a real server does rarely (faults, silence, garbage). For tests of the page alone; the forces are those of a spring.
 
 import { create, fromBinary, toBinary, type MessageInitShape } from "@bufbuild/protobuf";
 import { createReadStream, existsSync } from "node:fs";
@@ -49,13 +49,13 @@ export class FakeServer {
   shaking = false;
   name = "sphere";
   fault = "";
-  /** What it tells of a recording for a page; undefined: it makes none. */
+  /** What it reports of a recording for a page; undefined: it makes none. */
   recording: MessageInitShape<typeof PageRecordingSchema> | undefined;
   /** The world that it shares, and the hands of its other servers; undefined: it shares none. */
   shared: MessageInitShape<typeof SharedWorldSchema> | undefined;
   remote: MessageInitShape<typeof OtherDeviceSchema>[] = [];
   silent = false;
-  /** A page that comes is told of no scene until tellScene(). */
+  /** A page that comes is sent no scene until sendScene(). */
   withholding = false;
   /** The largest model file that it says it takes, bytes. */
   uploadBytes = 0n;
@@ -122,11 +122,11 @@ export class FakeServer {
   }
 
   /** The mesh, and then what places it. */
-  tellMesh(): void {
+  sendMesh(): void {
     this.send(sphereMesh(64, 128));
   }
 
-  tellScene(): void {
+  sendScene(): void {
     this.send(this.layout());
   }
 
@@ -268,7 +268,7 @@ export class FakeServer {
     return { point: scale(normal, kSphere_m), normal, multiplierM: 0.001, staticFriction, stiffness: 1 };
   }
 
-  /** Every cause at its own speed, so that their lines can be told apart. */
+  /** Every cause at its own speed, so that their lines can be distinguished. */
   private ledgerNow() {
     const t = this.time_s_;
     return {

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { SlowMotion } from "../src/bodies_panel";
 
 describe("slow motion", () => {
-  it("is told where the bodies' time is behind by more than a fiftieth", () => {
+  it("is reported where the bodies' time is behind by more than a fiftieth", () => {
     const slow = new SlowMotion();
     for (let time_s = 0; time_s < 3; time_s += 0.1) {
       expect(slow.judge(time_s, 0.01 * time_s)).toBeUndefined();
@@ -13,7 +13,7 @@ describe("slow motion", () => {
     expect(slow.judge(6, 1.53)).toBeCloseTo(0.5, 6);
   });
 
-  it("is no longer told a second after ticks are in time again", () => {
+  it("is no longer reported a second after ticks are in time again", () => {
     const slow = new SlowMotion();
     slow.judge(0, 0);
     expect(slow.judge(1, 0.5)).toBeCloseTo(0.5, 6);

@@ -13,7 +13,7 @@ describe("rows of devices", () => {
     others: [{ label: "right", safety: SafetyState.FAULT, fault: "the device does not answer" }],
   });
 
-  it("tell each device by its name, with its state and force", () => {
+  it("name each device, with its state and force", () => {
     const [left, right] = deviceRows(hello, state);
     expect(left).toMatchObject({ label: "left", model: "Force Dimension omega.3", safety: SafetyState.ON, fault: "" });
     expect(left!.force).toMatch(/^5\.00/);
@@ -26,7 +26,7 @@ describe("rows of devices", () => {
     expect(deviceRows(undefined, state)).toEqual([]);
   });
 
-  it("are those that the state tells, as in a recording of one", () => {
+  it("are those that the state reports, as in a recording of one", () => {
     expect(deviceRows(hello, create(StateSchema, {}))).toHaveLength(1);
   });
 

@@ -7,7 +7,7 @@ function opener(what: string, endings: string[], open: FileOpener["open"] = asyn
 }
 
 class Lines {
-  readonly told: string[] = [];
+  readonly reported: string[] = [];
   readonly stood: string[] = [];
   standing: string | undefined;
 
@@ -16,12 +16,12 @@ class Lines {
     if (text !== undefined) this.stood.push(text);
   }
 
-  tell(text: string, bad: boolean): void {
-    this.told.push(`${bad ? "bad" : "good"}: ${text}`);
+  report(text: string, bad: boolean): void {
+    this.reported.push(`${bad ? "bad" : "good"}: ${text}`);
   }
 
   settle(about: string): void {
-    this.told.push(`settled: ${about}`);
+    this.reported.push(`settled: ${about}`);
   }
 }
 
@@ -62,18 +62,18 @@ test("a long name keeps its ending, which says how the file is read", () => {
 describe("a file that is given", () => {
   test("is opened, with lines on the way", async () => {
     const lines = new Lines();
-    const drop = new FileDrop([opener("models", [".obj"], async (file, tell) => {
-      tell("reading");
+    const drop = new FileDrop([opener("models", [".obj"], async (file, report) => {
+      report("reading");
       return `${file.name} is open.`;
     })], lines);
     await drop.take([fileOf("a.obj")]);
-    expect(lines).toMatchObject({ told: ["good: a.obj is open."], stood: ["reading"], standing: undefined });
+    expect(lines).toMatchObject({ reported: ["good: a.obj is open."], stood: ["reading"], standing: undefined });
   });
 
-  test("that opens without a word ends what was told of files before", async () => {
+  test("that opens without a word ends what was reported of files before", async () => {
     const lines = new Lines();
     await new FileDrop([opener("recordings", [".hlr"], async () => "")], lines).take([fileOf("a.hlr")]);
-    expect(lines.told).toEqual(["settled: file"]);
+    expect(lines.reported).toEqual(["settled: file"]);
   });
 
   test("that fails gives its one line, and the next one is taken", async () => {
@@ -81,7 +81,7 @@ describe("a file that is given", () => {
     const drop = new FileDrop([opener("models", [".obj"], () => Promise.reject(new Error("no good")))], lines);
     await drop.take([fileOf("a.obj")]);
     await drop.take([fileOf("a.obj")]);
-    expect(lines.told).toEqual(["bad: no good", "bad: no good"]);
+    expect(lines.reported).toEqual(["bad: no good", "bad: no good"]);
   });
 
   test("that is a folder, or has gone meanwhile, is said to be so, whatever its opener says", async () => {
@@ -89,12 +89,12 @@ describe("a file that is given", () => {
     const gone = fileOf("a.obj");
     gone.slice = () => ({ arrayBuffer: () => Promise.reject(new Error("not found")) }) as unknown as Blob;
     await new FileDrop([opener("models", [".obj"], () => Promise.reject(new Error("broke")))], lines).take([gone]);
-    expect(lines.told).toEqual([
+    expect(lines.reported).toEqual([
       "bad: a.obj cannot be read: it is a folder, or it has been moved, changed or deleted. Give the file again.",
     ]);
   });
 
-  test("waits for nobody: a second one is told to come again", async () => {
+  test("waits for nobody: a second one is refused until it is given again", async () => {
     const lines = new Lines();
     let finish = (_: string) => {};
     const drop = new FileDrop([opener("models", [".obj"], () => new Promise((resolve) => (finish = resolve)))], lines);
@@ -102,7 +102,7 @@ describe("a file that is given", () => {
     await drop.take([fileOf("b.obj")]);
     finish("done");
     await first;
-    expect(lines.told).toEqual(["bad: Busy with another file: give b.obj again when it is done.", "good: done"]);
+    expect(lines.reported).toEqual(["bad: Busy with another file: give b.obj again when it is done.", "good: done"]);
   });
 
   test("of several, or of no known kind, or when nothing is opened now, is refused in a line", async () => {
@@ -113,7 +113,7 @@ describe("a file that is given", () => {
     await drop.take([fileOf("a.hlr"), fileOf("b.hlr")]);
     await drop.take([fileOf("a.xyz")]);
     await drop.take([fileOf("a.obj")]);
-    expect(lines.told).toEqual([
+    expect(lines.reported).toEqual([
       "bad: 2 files at once: give one file.",
       "bad: a.xyz cannot be opened here; recordings (.hlr) can.",
       "bad: This server takes no files.",

@@ -19,7 +19,7 @@ test("values are in range: stiffness up to 1, dynamic friction not above static"
   }
 });
 
-test("a server is told only of quantities that it knows", () => {
+test("a server is sent only quantities that it knows", () => {
   const honey = kPresets.find(({ name }) => name === "Honey")!;
   expect(settingsFor(honey, ["stiffness"])).toEqual({ stiffness: 0.4 });
   expect(presetOf({ stiffness: 0.31 }, kKnown)).toBeUndefined();

@@ -37,7 +37,7 @@ describe("hands that the page moves", () => {
     hands.showHello(helloOf(true, true, true));
   });
 
-  /** Long after the last one: it is sent at once. */
+  /** Long after the last one: it is sent immediately. */
   const goal = (position: Vec) => hands.goal(position, (now_ms += 1000));
   const goals = () => sent.filter(({ body }) => body.case === "handGoal").map(({ device, body }) => {
     const { x, y, z } = (body.value as { position: Vec }).position;
@@ -171,15 +171,15 @@ describe("hands that the page moves", () => {
     hands.choose(1);
     hands.press(2);
     hands.turn(undefined, 0.5);
-    hands.tell({ explore: false });
-    hands.tell({ handFirm: true });
-    hands.tell({ stiffnessNM: 500 });
+    hands.sendSettings({ explore: false });
+    hands.sendSettings({ handFirm: true });
+    hands.sendSettings({ stiffnessNM: 500 });
     expect(kinds()).toEqual([
       "press 1", "handTurn 1", "settings 1", "settings 0", "settings 1", "settings 2", "settings 0",
     ]);
     sent = [];
     hands.setTogether(true);
-    hands.tell({ explore: true });
+    hands.sendSettings({ explore: true });
     expect(kinds()).toEqual(["settings 0", "settings 1", "settings 2"]);
   });
 

@@ -8,7 +8,7 @@ const kSticky = create(SurfacesSchema, {
   stiffness: 0.6, staticFriction: 1, dynamicFriction: 0.8, viscosityNsM: 2, adhesionN: 0.5,
 });
 
-test("an object is told by its client's names and by the material that is pointed at", () => {
+test("an object is described by its client's names and by the material that is pointed at", () => {
   const placed = { session: 2, object: 7, name: 40, materials: [kPlain, kSticky] };
   expect(describeObject(1, placed, 3, 0)).toBe("Object 2 of 3, id 7, name 40, of client 2: stiffness 1, friction 0");
   expect(describeObject(0, { ...placed, session: 0 }, 1, 1)).toBe(
@@ -22,7 +22,7 @@ test("what the user has set over all surfaces is what is felt", () => {
   expect(describeObject(0, placed, 1, 0, over)).toBe("The model: stiffness 1, friction 0.5");
 });
 
-test("what is not told is not said, and what a texture modulates is said so", () => {
+test("what is not known is not said, and what a texture modulates is said so", () => {
   expect(describeObject(4, undefined, 5, 0)).toBe("Object 5 of 5");
   const textured = create(SurfacesSchema, { stiffness: 1, dynamicFriction: 0.2, viscosityNsM: 0 });
   expect(describeObject(0, { session: 0, object: 0, name: 0, materials: [textured] }, 1, 0)).toBe(

@@ -1,4 +1,4 @@
-// The line that tells what is open now.
+// The line that says what is open now.
 import { expect, test } from "vitest";
 import { openedLine } from "../src/opened_line";
 

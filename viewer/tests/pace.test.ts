@@ -1,11 +1,11 @@
-// A drag of a slider in few messages: the first at once, the last one always.
+// A drag of a slider in few messages: the first immediately, the last one always.
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { paced } from "../src/pace";
 
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
-test("acts at once, then once per period, and never loses the last call", () => {
+test("acts immediately, then once per period, and never loses the last call", () => {
   const act = vi.fn();
   const call = paced(act, 30);
   call();
@@ -21,7 +21,7 @@ test("acts at once, then once per period, and never loses the last call", () => 
   expect(act).toHaveBeenCalledTimes(5);
 });
 
-test("after a rest the next call acts at once again", () => {
+test("after a rest the next call acts immediately again", () => {
   const act = vi.fn();
   const call = paced(act, 30);
   call();

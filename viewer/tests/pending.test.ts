@@ -1,4 +1,4 @@
-// Who moves a control: the user at once, the server when it has heard of it, another page when the user is done.
+// Who moves a control: the user immediately, the server when it has heard of it, another page when the user is done.
 import { expect, test } from "vitest";
 import { kGiveUp_ms, kUnderway_ms, Pending } from "../src/pending";
 

@@ -1,4 +1,4 @@
-// A press against a hand that goes where it is told: it comes from above, goes as deep as the part allows, and follows.
+// A press against a hand that goes where it is sent: it comes from above, goes as deep as the part allows, and follows.
 import { expect, test } from "vitest";
 import { kAbove_D, kPress_D, Press, type SurfaceHit } from "../src/press";
 import { length, sub, type Vec } from "../src/vec";
@@ -10,7 +10,7 @@ function hitAt(x: number, thickness_m = Infinity): SurfaceHit {
   return { point: { x, y: 0, z: 0 }, normal: kUp, thickness_m, object: 0, material: 0 };
 }
 
-/** What the hand wants after it has gone to each goal at once, 20 ms after each other. */
+/** What the hand wants after it has gone to each goal immediately, 20 ms after each other. */
 function settle(press: Press, from: Vec, now_ms = 0): Vec {
   let hand = from;
   for (let i = 0; i < 200 && press.coming; ++i) {

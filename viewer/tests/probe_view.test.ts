@@ -8,7 +8,7 @@ const touching = create(StateSchema, { finger: at(0), proxy: at(0.001), forceN: 
 
 describe("a probe", () => {
   // Its spot has no place and no size of its own then: it would cover the whole picture.
-  test("shows no line down until it is told where that ends", () => {
+  test("shows no line down until it gets where that ends", () => {
     const probe = new ProbeView();
     probe.update(touching);
     expect(probe.drop.group.visible).toBe(false);

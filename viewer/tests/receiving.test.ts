@@ -1,8 +1,8 @@
-// What is told of a scene on its way.
+// What is shown of a scene on its way.
 import { expect, test } from "vitest";
 import { Receiving } from "../src/receiving";
 
-test("a scene that takes long is told, with what of it has come, until it is there", () => {
+test("a scene that takes long is reported, with what of it has come, until it is there", () => {
   const receiving = new Receiving();
   expect(receiving.line(true, 0, 1000)).toBeUndefined();
   expect(receiving.line(true, 0, 1400)).toBe("Receiving the scene…");

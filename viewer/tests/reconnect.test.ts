@@ -1,4 +1,4 @@
-// Coming back to the server: at once at first, never rarer than every two seconds.
+// Coming back to the server: immediately at first, never rarer than every two seconds.
 import { expect, test } from "vitest";
 import { kFirstDelay_ms, kGiveUp_ms, kLongestDelay_ms, kSilent_ms, liveness, ReconnectPolicy } from "../src/reconnect";
 

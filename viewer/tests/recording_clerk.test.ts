@@ -34,7 +34,7 @@ describe("a recording", () => {
     expect(sent).toHaveLength(5);
   });
 
-  test("that the server refuses is told once", () => {
+  test("that the server refuses is reported once", () => {
     const { clerk } = begun();
     const refused = said({ owner: kOwner, text: "an object that is driven cannot be recorded" });
     expect(clerk.hear(refused, 0)).toMatchObject({
@@ -43,7 +43,7 @@ describe("a recording", () => {
     expect(clerk.hear(refused, 9000).refused).toBeUndefined();
   });
 
-  test("of another page is told, and cannot be ended by this one", () => {
+  test("of another page is reported, and cannot be ended by this one", () => {
     const sent: unknown[] = [];
     const clerk = new RecordingClerk((...words) => sent.push(words));
     const news = clerk.hear(said({ phase: Phase.RUNNING, owner: 8, timeS: 3 }), 0);

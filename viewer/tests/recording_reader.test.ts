@@ -10,7 +10,7 @@ const read = (file: Blob) => readRecording(file, () => {});
 const blobOf = (...parts: Buffer[]) => new Blob(parts as BlobPart[]);
 
 describe("a recording", () => {
-  test("tells how long it is, of which device, and why it ends", async () => {
+  test("says how long it is, of which device, and why it ends", async () => {
     const shares: number[] = [];
     const recording = await readRecording(fileOf(...kWhole), (share) => shares.push(share));
     expect(recording).toMatchObject({ device: "a device", end: "stopped", servoRate_Hz: 10, blackBox: false });

@@ -1,4 +1,4 @@
-// Bodies and joints in a scene file: where they are now, with coordinates told from there.
+// Bodies and joints in a scene file: where they are now, with coordinates counted from there.
 import { create, type MessageInitShape } from "@bufbuild/protobuf";
 import { describe, expect, test } from "vitest";
 import { BodyShape, JointKind, JointSchema, PlacedJointSchema, PlacedMeshSchema } from "../src/gen/hl_pb";

@@ -89,9 +89,9 @@ describe("a scene file", () => {
   });
 
   test("says that textures are not in it, unless the user has set a number in their place", async () => {
-    const { stiffness: _, ...untold } = kMaterial;
-    expect((await sceneFile(storeOf(meshOf(), [untold]), {})).lacking).toMatch(/no textures/);
-    expect((await sceneFile(storeOf(meshOf(), [untold]), { stiffness: 0.4 })).lacking).toBeUndefined();
+    const { stiffness: _, ...unset } = kMaterial;
+    expect((await sceneFile(storeOf(meshOf(), [unset]), {})).lacking).toMatch(/no textures/);
+    expect((await sceneFile(storeOf(meshOf(), [unset]), { stiffness: 0.4 })).lacking).toBeUndefined();
   });
 
   test("is refused in one line for a scene that is empty or not known", async () => {

@@ -19,7 +19,7 @@ describe("surface settings", () => {
     expect(settingsOf(create(SurfacesSchema, { textures: false }))).toEqual({ textures: false });
   });
 
-  test("a knob has the range, the unit and the words that the server tells", () => {
+  test("a knob has the range, the unit and the words that the server sends", () => {
     const knob = knobOf(create(QuantityInfoSchema, {
       field: "viscosityNsM", name: "viscosity", unit: "N s/m", usual: 20, otherwise: 0, words: "drag",
     }));

@@ -101,7 +101,7 @@ describe("the live scene that waits", () => {
   const meshOf = (number: number) => ({ number }) as Mesh;
   const layoutOf = (number: number) => ({ number, placed: [], poses: new Float32Array() }) as unknown as Layout;
 
-  test("is what the server has told since", () => {
+  test("is what the server has sent since", () => {
     const store = new SceneStore();
     store.add(meshOf(1));
     store.setLayout(layoutOf(1));

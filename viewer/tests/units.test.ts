@@ -58,7 +58,7 @@ test("formatShortCount rounds what has more than six digits", () => {
   expect(formatShortCount(undefined)).toBe(kUnknown);
 });
 
-test("formatScale tells the world's motion per millimetre of the hand", () => {
+test("formatScale gives the world's motion per millimetre of the hand", () => {
   expect(plain(formatScale(2.5))).toBe("2.50 mm per mm");
   expect(plain(formatScale(1000))).toBe("1.00 m per mm");
   expect(formatScale(0)).toBe(kUnknown);

@@ -11,7 +11,7 @@ function sine(rate_Hz: number, force_N: number): (time_s: number) => number {
   return (time_s) => 2 + force_N * Math.sin(2 * Math.PI * rate_Hz * time_s);
 }
 
-test("tells swing and rate of a vibration", () => {
+test("gives swing and rate of a vibration", () => {
   const swing = swingOf(...window(sine(60, 1.5)));
   expect(swing.force_N).toBeCloseTo(3, 1);
   expect(swing.rate_Hz).toBeGreaterThan(55);
@@ -26,7 +26,7 @@ test("a slow push, a bump, noise of the encoders and nothing at all are no vibra
   expect(alarm.judge([], [])).toBeUndefined();
 });
 
-test("is told for a second after it has ceased", () => {
+test("is reported for a second after it has ceased", () => {
   const alarm = new VibrationAlarm();
   expect(alarm.judge(...window(sine(80, 3)))).toBeDefined();
   expect(alarm.judge(...window(() => 1, 0.5))).toBeDefined();

@@ -1,4 +1,4 @@
-// What a layout tells of volumes, and the sliders that it makes.
+// What a layout holds of volumes, and the sliders that it makes.
 import { create } from "@bufbuild/protobuf";
 import { expect, test } from "vitest";
 import { PlacedMeshSchema, PlacedVolumeSchema, SceneLayoutSchema, type PlacedVolume } from "../src/gen/hl_pb";
@@ -29,7 +29,7 @@ test("a slider reaches from the lowest to the highest value", () => {
   expect(slider.text(-480)).toBe("-480\u202fHU");
 });
 
-test("of several volumes each has its name, or its number where the name does not tell", () => {
+test("of several volumes each has its name, or its number where the name does not distinguish it", () => {
   const labels = (...names: string[]) => {
     const volumes = names.map((name) => ({ ...kCt, name }));
     return volumes.map((_, i) => isoSliderOf(volumes, i).label);

@@ -31,7 +31,7 @@ export class Connection {
     engine.send(bytes);
   }
 
-  /** A scene of the address that does not exist is told, and the page has one all the same. */
+  /** A scene of the address that does not exist is reported, and the page has one all the same. */
   private async begin(name: string): Promise<void> {
     const loaded = await this.pick(name);
     if (!loaded && name !== kScene) await this.pick(kScene);

@@ -3,12 +3,12 @@
 import { kProtocolVersion } from "../protocol";
 import { encode } from "./encode";
 import { Numbers, type Module } from "./engine";
-import type { ToldScene } from "./told_scene";
+import type { SentScene } from "./told_scene";
 import type { EngineQuantity } from "./quantities";
 
 const kContacts = 3;
 
-/** What a page is told first. */
+/** What a page gets first. */
 export function helloMessage(
   module: Module, name: string, quantities: readonly EngineQuantity[],
 ): Uint8Array<ArrayBuffer> {
@@ -27,7 +27,7 @@ export interface Sample { timeS: number; forceN: number; penetrationM: number; t
 
 /** The rate is of the real clock. */
 export function stateMessage(
-  module: Module, samples: readonly Sample[], rateHz: number, surfaces: object, scene: ToldScene,
+  module: Module, samples: readonly Sample[], rateHz: number, surfaces: object, scene: SentScene,
 ): Uint8Array<ArrayBuffer> {
   const n = new Numbers(module, module._hlWebState());
   const value = {

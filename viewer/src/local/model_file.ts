@@ -42,12 +42,12 @@ export class ModelFile implements FileOpener {
     return undefined;
   }
 
-  async open(file: File, tell: (line: string) => void): Promise<string> {
+  async open(file: File, report: (line: string) => void): Promise<string> {
     const name = shownName(file.name);
     if (file.size === 0) throw new Error(`${name} is empty.`);
     if (file.size > kMax_bytes)
       throw new Error(`${name} has ${formatSi(file.size, "B")}; this page reads ${formatSi(kMax_bytes, "B")} at most.`);
-    tell(`Reading ${name}…`);
+    report(`Reading ${name}…`);
     this.expect_(true);
     try {
       const ending = this.endings.find((one) => file.name.toLowerCase().endsWith(one))!;

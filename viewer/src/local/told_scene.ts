@@ -1,4 +1,4 @@
-// The scene as the page is told it: meshes and a layout for each new scene, and what of it moves, from the engine's
+// The scene as it is sent to the page: meshes and a layout for each new scene, and what of it moves, from the engine's
 // numbers in the order of web/hl_web.h.
 
 import type { MessageInitShape } from "@bufbuild/protobuf";
@@ -19,7 +19,7 @@ const kMoves = 2;
 const bytesOf = (values: Float32Array | Uint32Array): Uint8Array =>
   new Uint8Array(values.buffer, values.byteOffset, values.byteLength);
 
-export class ToldScene {
+export class SentScene {
   private layout_ = 0;
   private lastMesh_ = 0;
   private meshes_: readonly number[] = [];

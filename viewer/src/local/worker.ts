@@ -8,11 +8,11 @@ import { loadBuiltin, loadMesh, Numbers, type Module } from "./engine";
 import type { Loaded, Order, Word } from "./engine_worker";
 import { helloMessage, stateMessage, type Sample } from "./messages";
 import { parseQuantities, type EngineQuantity } from "./quantities";
-import { ToldScene } from "./told_scene";
+import { SentScene } from "./told_scene";
 
 const kTimer_ms = 4;
 const kState_ms = 16;
-/** Servo steps at one go: a worker that was asleep does not catch up with more. */
+/** Servo steps in one turn: a worker that was asleep does not catch up with more. */
 const kMaxSteps = 20;
 /** Steps between two samples of the plots. */
 const kSampleSteps = 4;
@@ -23,12 +23,12 @@ class Server {
   private surfaces_: Partial<Surfaces> = { textures: true };
   /** What the user has set, for the next scene: the engine begins each with its own. */
   private kept_: Partial<Settings> = {};
-  private readonly scene_ = new ToldScene();
+  private readonly scene_ = new SentScene();
   private timer_: ReturnType<typeof setInterval> | undefined;
   private running_ = true;
   private samples_: Sample[] = [];
   private last_ms_ = performance.now();
-  private told_ms_ = 0;
+  private sent_ms_ = 0;
   private counted_ = 0;
   private window_ms_ = performance.now();
   private rate_Hz_ = 0;
@@ -87,8 +87,8 @@ class Server {
   }
 
   private set(settings: Partial<Settings>): void {
-    const told = Object.entries(settings).filter(([, value]) => value !== undefined);
-    Object.assign(this.kept_, Object.fromEntries(told));
+    const given = Object.entries(settings).filter(([, value]) => value !== undefined);
+    Object.assign(this.kept_, Object.fromEntries(given));
     this.apply(settings);
   }
 
@@ -113,8 +113,8 @@ class Server {
     for (let done = 0; done < steps; done += kSampleSteps) this.step(Math.min(kSampleSteps, steps - done));
     this.last_ms_ += wanted;
     this.count(steps, now_ms);
-    if (now_ms - this.told_ms_ < kState_ms) return;
-    this.told_ms_ = now_ms;
+    if (now_ms - this.sent_ms_ < kState_ms) return;
+    this.sent_ms_ = now_ms;
     this.post(stateMessage(this.module_, this.samples_.splice(0), this.rate_Hz_, this.surfaces_, this.scene_));
   }
 
@@ -148,11 +148,11 @@ async function start(): Promise<Server> {
   const response = await fetch(binaryUrl);
   if (!response.ok) throw new Error(`${binaryUrl} cannot be loaded (${response.status}): reload the page`);
   const module = await makeModule({ wasmBinary: await response.arrayBuffer() });
-  tell({ scenes: module.UTF8ToString(module._hlWebScenes()) });
+  send({ scenes: module.UTF8ToString(module._hlWebScenes()) });
   return new Server(module);
 }
 
-function tell(word: Word): void {
+function send(word: Word): void {
   postMessage(word);
 }
 
@@ -171,8 +171,8 @@ onmessage = ({ data }: MessageEvent<Order | Uint8Array>) => {
     void started.then((made) => made.setRunning(data.running), () => undefined);
   } else {
     started.then((made) => load(made, data)).then(
-      (loaded) => tell({ load: data.load, loaded }),
-      (error: unknown) => tell({ load: data.load, error: error instanceof Error ? error.message : String(error) }),
+      (loaded) => send({ load: data.load, loaded }),
+      (error: unknown) => send({ load: data.load, error: error instanceof Error ? error.message : String(error) }),
     );
   }
 };

@@ -30,7 +30,7 @@ function requireForm(values: Values | undefined, numbers: number, integers: numb
 
 type Triple = [number, number, number];
 
-/** What ticks are told (TickContext of src/record/recorded_ticks.h). */
+/** What ticks are given (TickContext of src/record/recorded_ticks.h). */
 export interface TickContext {
   readonly origin: Vec;
   readonly worldPerDevice: number;

@@ -11,7 +11,7 @@ const kHead_bytes = 12;
 const kMaxPacking = 1100;
 /** A block that a page can unpack. */
 const kMaxBlock_bytes = 2 ** 29;
-/** Read at once. */
+/** Read in one piece. */
 const kPiece_bytes = 2 ** 20;
 
 export class RecordingError extends Error {}

@@ -14,13 +14,13 @@ export class RecordingFile implements FileOpener {
     return undefined;
   }
 
-  open(file: File, tell: (line: string) => void): Promise<string> {
+  open(file: File, report: (line: string) => void): Promise<string> {
     const name = shownName(file.name);
     const worker = new Worker(new URL("./recording_worker.ts", import.meta.url), { type: "module" });
     const read = new Promise<Recording>((resolve, reject) => {
       worker.onmessage = ({ data }: MessageEvent<WorkerMessage>) => {
         if (data.kind === "share") {
-          tell(`Reading ${name}: ${Math.floor(100 * data.share)} %`);
+          report(`Reading ${name}: ${Math.floor(100 * data.share)} %`);
         } else if (data.kind === "recording") {
           resolve(data.recording);
         } else {

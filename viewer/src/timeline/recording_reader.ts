@@ -228,7 +228,7 @@ class RecordingReader {
     });
   }
 
-  /** Each time is told as the difference to the one before. */
+  /** Each time is stored as the difference to the one before. */
   private eachTime(differences: readonly bigint[], act: (time_s: number, index: number) => void): void {
     let time_ns = Number(differences[0]! - this.origin_ns);
     differences.forEach((difference, i) => {

@@ -9,7 +9,7 @@ export type WorkerMessage =
   | { readonly kind: "recording"; readonly recording: Recording }
   | { readonly kind: "refused"; readonly why: string };
 
-const kTell_ms = 100;
+const kReport_ms = 100;
 
 function buffersOf({ steps, ticks, meshes, bodies }: Recording): ArrayBuffer[] {
   const tracks = [steps, ticks].flatMap(({ times, columns }) => [times, ...columns]);
@@ -21,11 +21,11 @@ function buffersOf({ steps, ticks, meshes, bodies }: Recording): ArrayBuffer[] {
 
 async function answer(file: Blob): Promise<void> {
   const post = (message: WorkerMessage, transfer: ArrayBuffer[] = []) => postMessage(message, { transfer });
-  let told_ms = 0;
+  let reported_ms = 0;
   try {
     const recording = await readRecording(file, (share) => {
-      if (performance.now() - told_ms > kTell_ms) {
-        told_ms = performance.now();
+      if (performance.now() - reported_ms > kReport_ms) {
+        reported_ms = performance.now();
         post({ kind: "share", share });
       }
     });

@@ -1,4 +1,4 @@
-// The live scene while something else is shown: what the server goes on telling of it, to be shown again as it is then.
+// The live scene while something else is shown: what the server goes on sending of it, to be shown again as it is then.
 
 import type { Hello } from "../gen/hl_pb";
 import type { Incoming } from "../protocol";
@@ -35,7 +35,7 @@ export class SceneHold {
     }
   }
 
-  /** What a page that has just come would be told; without a greeting if the server is the same. */
+  /** What a page that has just come would be sent; without a greeting if the server is the same. */
   messages(): Incoming[] {
     const meshes = [...this.meshes_.values()].map((mesh): Incoming => ({ kind: "mesh", mesh }));
     return [

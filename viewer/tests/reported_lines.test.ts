@@ -1,20 +1,20 @@
-// Which told lines stay.
+// Which reported lines stay.
 import { expect, test } from "vitest";
-import { lifeOf, stayingWith, type ToldLine } from "../src/told_lines";
+import { lifeOf, stayingWith, type ReportedLine } from "../src/reported_lines";
 
-const good = (text: string, about: string): ToldLine => ({ text, bad: false, about });
-const bad = (text: string, about: string): ToldLine => ({ text, bad: true, about });
-const ofServer = (text: string): ToldLine => ({ text, bad: false });
-const after = (...lines: ToldLine[]) =>
-  lines.reduce<ToldLine[]>((shown, next) => [...stayingWith(shown, next), next], []).map(({ text }) => text);
+const good = (text: string, about: string): ReportedLine => ({ text, bad: false, about });
+const bad = (text: string, about: string): ReportedLine => ({ text, bad: true, about });
+const ofServer = (text: string): ReportedLine => ({ text, bad: false });
+const after = (...lines: ReportedLine[]) =>
+  lines.reduce<ReportedLine[]>((shown, next) => [...stayingWith(shown, next), next], []).map(({ text }) => text);
 
-test("what goes well takes the place of what was told of the same thing, good or bad", () => {
+test("what goes well takes the place of what was reported of the same thing, good or bad", () => {
   expect(after(good("a opened", "file"), good("b opened", "file"))).toEqual(["b opened"]);
   expect(after(bad("a is broken", "file"), bad("b is broken", "file"), good("c opened", "file"))).toEqual(["c opened"]);
   expect(after(bad("no recording", "recording"), good("c opened", "file"))).toEqual(["no recording", "c opened"]);
 });
 
-test("errors stay beside each other, and the same one is told once", () => {
+test("errors stay beside each other, and the same one is reported once", () => {
   expect(after(bad("a is broken", "file"), bad("b is broken", "file"))).toEqual(["a is broken", "b is broken"]);
   expect(after(bad("a is broken", "file"), bad("b", "file"), bad("a is broken", "file"))).toEqual(["b", "a is broken"]);
   expect(after(good("a opened", "file"), bad("b is broken", "file"))).toEqual(["b is broken"]);

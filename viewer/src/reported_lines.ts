@@ -1,8 +1,8 @@
-// Which lines stay when another one is told, and for how long. A line is about a thing that the user does: what went well
-// takes the place of all that was told of it before and goes by itself, what went wrong stays until it is closed or goes
-// well. A line about nothing is of the server, and stays until it is closed.
+// Which lines stay when another one is reported, and for how long. A line is about an action of the user: a success
+// takes the place of all that was reported of it before and goes by itself, what went wrong stays until it is closed
+// or goes well. A line about nothing is of the server, and stays until it is closed.
 
-export interface ToldLine {
+export interface ReportedLine {
   readonly text: string;
   readonly bad: boolean;
   readonly about?: string | undefined;
@@ -15,8 +15,8 @@ const kNotice_ms = 6000;
 const kRead_ms = 100;
 
 /** Those of `shown`, the oldest first, that stay when `next` comes. */
-export function stayingWith<Line extends ToldLine>(shown: readonly Line[], next: ToldLine): Line[] {
-  const stays = ({ text, bad, about }: ToldLine) => {
+export function stayingWith<Line extends ReportedLine>(shown: readonly Line[], next: ReportedLine): Line[] {
+  const stays = ({ text, bad, about }: ReportedLine) => {
     const repeated = text === next.text && bad === next.bad;
     const settled = about !== undefined && about === next.about && !(bad && next.bad);
     return !repeated && !settled;
@@ -25,6 +25,6 @@ export function stayingWith<Line extends ToldLine>(shown: readonly Line[], next:
 }
 
 /** After so long it goes by itself; undefined: it does not. */
-export function lifeOf({ text, bad, about }: ToldLine): number | undefined {
+export function lifeOf({ text, bad, about }: ReportedLine): number | undefined {
   return bad || about === undefined ? undefined : kNotice_ms + kRead_ms * text.length;
 }
