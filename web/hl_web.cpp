@@ -106,16 +106,16 @@ int hlWebLoadMesh(const char* name, const double* positions, std::uint32_t verti
 }
 
 const HlWebScene* hlWebScene() { return &session->scene(); }
-const HlWebObject* hlWebObject(int object) { return &session->told().object(object); }
-const double* hlWebPositions(int object) { return session->told().model(object).positions.data()->data(); }
-const double* hlWebNormals(int object) { return session->told().model(object).normals.data()->data(); }
-const std::uint32_t* hlWebTriangles(int object) { return session->told().model(object).triangles.data()->data(); }
-const std::uint32_t* hlWebSegments(int object) { return session->told().model(object).segments.data()->data(); }
-const double* hlWebStarts() { return session->told().starts(); }
-const double* hlWebPoses() { return session->told().posesAt(session->now_ns()); }
-const HlWebJoint* hlWebJoint(int joint) { return &session->told().joint(joint); }
-const HlWebPlace* hlWebPlace(int place) { return &session->told().place(place); }
-const double* hlWebPoints(int place) { return session->told().points(place); }
+const HlWebObject* hlWebObject(int object) { return &session->sent().object(object); }
+const double* hlWebPositions(int object) { return session->sent().model(object).positions.data()->data(); }
+const double* hlWebNormals(int object) { return session->sent().model(object).normals.data()->data(); }
+const std::uint32_t* hlWebTriangles(int object) { return session->sent().model(object).triangles.data()->data(); }
+const std::uint32_t* hlWebSegments(int object) { return session->sent().model(object).segments.data()->data(); }
+const double* hlWebStarts() { return session->sent().starts(); }
+const double* hlWebPoses() { return session->sent().posesAt(session->now_ns()); }
+const HlWebJoint* hlWebJoint(int joint) { return &session->sent().joint(joint); }
+const HlWebPlace* hlWebPlace(int place) { return &session->sent().place(place); }
+const double* hlWebPoints(int place) { return session->sent().points(place); }
 void hlWebStep(int steps) { session->step(steps); }
 const HlWebState* hlWebState() { return &session->state(); }
 const char* hlWebFault() { return session->fault(); }

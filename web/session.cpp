@@ -19,7 +19,7 @@ constexpr int kStepsOfHand = 16;                     // the hand's goal is moved
 
 WebSession::WebSession(std::shared_ptr<const Snapshot> snapshot)
     : snapshot_(std::move(snapshot)),
-      told_(snapshot_),
+      sent_(snapshot_),
       scenes_(snapshot_),
       loop_(scenes_, ProxySettings{}),
       settings_(ServoSettings::of(device_.info())),
@@ -97,8 +97,8 @@ void WebSession::describeScene() {
   scene_.radius = commands_.radius_W;
   scene_.world_per_device = commands_.workspace.world_per_device;
   put(scene_.gravity, snapshot_->mechanics.gravity_m_s2);
-  scene_.objects = static_cast<double>(told_.objects());
-  scene_.joints = static_cast<double>(told_.joints());
+  scene_.objects = static_cast<double>(sent_.objects());
+  scene_.joints = static_cast<double>(sent_.joints());
   scene_.snaps = static_cast<double>(snapshot_->snaps.size());
   scene_.fields = static_cast<double>(snapshot_->fields.size());
 }

@@ -6,7 +6,7 @@
 #include "device/simulated_device.h"
 #include "hl_web.h"
 #include "scene/snapshot.h"
-#include "told_scene.h"
+#include "sent_scene.h"
 #include "touch/ending_counts.h"
 #include "touch/snapshot_slot.h"
 #include "touch/touch_step.h"
@@ -32,7 +32,7 @@ class WebSession {
   const HlWebScene& scene() const { return scene_; }
   const HlWebState& state();
   const char* fault() const { return faultText(out_.fault); }
-  ToldScene& told() { return told_; }
+  SentScene& sent() { return sent_; }
   std::int64_t now_ns() const { return now_ns_; }
 
  private:
@@ -46,7 +46,7 @@ class WebSession {
   Vec3 clamped(const Vec3& goal_D) const;
 
   std::shared_ptr<const Snapshot> snapshot_;
-  ToldScene told_;
+  SentScene sent_;
   SimulatedDevice device_;
   SnapshotSlot scenes_;
   ProxyLoop loop_;

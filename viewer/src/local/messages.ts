@@ -3,7 +3,7 @@
 import { kProtocolVersion } from "../protocol";
 import { encode } from "./encode";
 import { Numbers, type Module } from "./engine";
-import type { SentScene } from "./told_scene";
+import type { SentScene } from "./sent_scene";
 import type { EngineQuantity } from "./quantities";
 
 const kContacts = 3;

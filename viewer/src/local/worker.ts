@@ -8,7 +8,7 @@ import { loadBuiltin, loadMesh, Numbers, type Module } from "./engine";
 import type { Loaded, Order, Word } from "./engine_worker";
 import { helloMessage, stateMessage, type Sample } from "./messages";
 import { parseQuantities, type EngineQuantity } from "./quantities";
-import { SentScene } from "./told_scene";
+import { SentScene } from "./sent_scene";
 
 const kTimer_ms = 4;
 const kState_ms = 16;

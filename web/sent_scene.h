@@ -1,4 +1,4 @@
-// ToldScene: what does not change of a scene, as numbers for the page, and where its objects are.
+// SentScene: what does not change of a scene, as numbers for the page, and where its objects are.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace hl {
 
-class ToldScene {
+class SentScene {
  public:
-  explicit ToldScene(std::shared_ptr<const Snapshot> snapshot);
+  explicit SentScene(std::shared_ptr<const Snapshot> snapshot);
 
   const HlWebObject& object(int number) const { return objects_.at(static_cast<std::size_t>(number)); }
   const HlWebJoint& joint(int number) const { return joints_.at(static_cast<std::size_t>(number)); }

@@ -1,4 +1,4 @@
-#include "told_scene.h"
+#include "sent_scene.h"
 
 #include <cmath>
 #include <limits>
@@ -28,13 +28,13 @@ HlWebPlace placeOf(const Spec& spec, std::uint32_t object, double kind, double r
 
 }  // namespace
 
-ToldScene::ToldScene(std::shared_ptr<const Snapshot> snapshot) : snapshot_(std::move(snapshot)) {
+SentScene::SentScene(std::shared_ptr<const Snapshot> snapshot) : snapshot_(std::move(snapshot)) {
   for (const Instance& instance : snapshot_->instances) addObject(instance);
   for (const JointSpec& joint : snapshot_->mechanics.joints) addJoint(joint);
   addPlaces();
 }
 
-void ToldScene::addObject(const Instance& instance) {
+void SentScene::addObject(const Instance& instance) {
   const Model& model = instance.shape->model;
   objects_.push_back({static_cast<double>(model.positions.size()), static_cast<double>(model.normals.size()),
                       static_cast<double>(model.triangles.size()), static_cast<double>(model.segments.size()),
@@ -42,7 +42,7 @@ void ToldScene::addObject(const Instance& instance) {
   appendPose(starts_, instance.body ? instance.body->start : instance.shownAt(0));
 }
 
-void ToldScene::addJoint(const JointSpec& joint) {
+void SentScene::addJoint(const JointSpec& joint) {
   std::uint32_t a = 0, b = 0;
   if (!snapshot_->find(joint.body_a, a) || (joint.body_b != 0 && !snapshot_->find(joint.body_b, b))) return;
   HlWebJoint out{};
@@ -57,7 +57,7 @@ void ToldScene::addJoint(const JointSpec& joint) {
   joints_.push_back(out);
 }
 
-void ToldScene::addPlaces() {
+void SentScene::addPlaces() {
   for (const PlacedSnap& snap : snapshot_->snaps) {
     const SnapSpec& spec = (*snapshot_->instances[snap.instance].snaps)[snap.number];
     places_.push_back(placeOf(spec, snap.instance, -1, spec.capture_m, spec.release_N));
@@ -71,11 +71,11 @@ void ToldScene::addPlaces() {
   }
 }
 
-const Model& ToldScene::model(int object) const {
+const Model& SentScene::model(int object) const {
   return snapshot_->instances.at(static_cast<std::size_t>(object)).shape->model;
 }
 
-const double* ToldScene::posesAt(std::int64_t now_ns) {
+const double* SentScene::posesAt(std::int64_t now_ns) {
   poses_.clear();
   for (const Instance& instance : snapshot_->instances) appendPose(poses_, instance.shownAt(now_ns));
   return poses_.data();
