@@ -128,8 +128,8 @@ HL_API void hlBatchResetFingers(HLbatchFingers* fingers, const unsigned char* ma
  * x 3, m; `distance`, m; `normal` x 3, unit, from the surface to the point; `primitive`, its number in the model: the
  * row of hlBatchMakeScene's triangles; of a file first the triangles, then the segments, then the points. Degenerate
  * ones have their numbers there, but cannot be touched and are never the nearest. Bodies are where they start, and
- * count after what stays. Heights, volumes, clouds and implicit surfaces number what they make in an order of their own,
- * with gaps: these are no rows of the file. */
+ * count after what stays. Heights, volumes, clouds and implicit surfaces number what they make in their own order, with
+ * gaps: these are no rows of the file. */
 HL_API HLenum hlBatchClosest(const HLbatchScene* scene, size_t count, const HLdouble* points, HLint threads,
                              HLdouble* nearest, HLdouble* distance, HLdouble* normal, uint64_t* primitive);
 
