@@ -20,7 +20,7 @@ std::size_t pointsAlong(std::uint32_t order, const std::vector<double>& knots) {
 // Knots that rise, with a surface between them that does not tear.
 void checkKnots(const std::vector<double>& knots, std::uint32_t order, const std::string& name) {
   if (knots.empty()) return;
-  if (knots.size() < 2 * order) throw Error(name + " must be at least twice the order in number");
+  if (knots.size() < std::size_t{2} * order) throw Error(name + " must be at least twice the order in number");
   const bool sound =
       std::all_of(knots.begin(), knots.end(), [](double knot) { return std::abs(knot) <= kFarthestPoint_m; });
   if (!sound || !std::is_sorted(knots.begin(), knots.end()))
@@ -100,7 +100,7 @@ std::vector<Homogeneous> turnedGrid(const std::vector<Homogeneous>& grid, std::s
 }
 
 std::vector<double> bezierKnots(std::uint32_t order) {
-  std::vector<double> knots(2 * order, 0);
+  std::vector<double> knots(std::size_t{2} * order, 0);
   std::fill(knots.begin() + order, knots.end(), 1);
   return knots;
 }
