@@ -6,7 +6,7 @@
         print(touch.state().force)
 
 Servo and proxy run in the server's own threads, never in Python: a program that is slow, or waits, changes no force.
-A Touch is used by one thread at a time.
+A Touch is used by the thread that opened it; another one can take it when that thread has ended.
 """
 
 import asyncio
@@ -160,7 +160,10 @@ class Touch:
         self.close()
 
     def close(self) -> None:
-        """Ends the conversation; twice is allowed. Its objects are gone, unless it was opened with keep=1."""
+        """Ends the conversation; twice is allowed. Its objects are gone, unless it was opened with keep=1.
+
+        In a function given to `on` it raises InvalidOperationError, and the connection stays open.
+        """
         self._context.close()
 
     def make_current(self) -> None:
@@ -174,7 +177,8 @@ class Touch:
         """One frame: what is drawn inside becomes touchable all at once, and replaces the world of the frame before.
 
         A frame that draws nothing leaves the world, and changes only what it defines or updates. wait: until it is
-        shown. After an exception inside, nothing is sent, and all is as if the frame had not begun.
+        shown. After an exception inside, nothing is sent: the world, objects and textures
+        are as if the frame had not begun. The current material, name, matrix and textures stay as they were set.
         """
         self.make_current()
         if self._is_in_frame:
@@ -625,10 +629,12 @@ class Touch:
         return self._context.poll()
 
     def on(self, kind: str, function: Optional[Callable[[_hl.Event], None]]) -> None:
-        """`poll` calls `function(event)` for each "touch", "untouch", "button" or "motion"; None: no more.
+        """`poll` calls `function(event)` for each event of `kind`; None: no more. Kinds: "touch", "untouch", "button",
+        "motion", and of bodies "sleep", "wake" and "impact".
 
-        An event has kind, time (s), object, name, position (of the proxy, m), button and down. What a function raises,
-        `poll` raises when all have run.
+        An event has kind, time (s), object, name, position (of the proxy, m), button, down and impulse (N s). What a
+        function raises, `poll` raises when all have run. A function may draw frames; it may not call `poll`, `state`,
+        `contacts` or `close`.
         """
         number = _chosen(_EVENTS, kind, "event")
         if function is None:

@@ -76,9 +76,10 @@ class Context {
   }
   /// The thread's; null: it has none.
   static const Context* current() { return current_ != nullptr && current_->isCurrent() ? current_ : nullptr; }
-  /// Twice is allowed.
+  /// Twice is allowed. Within a callback of poll() it throws, and the connection stays open.
   void close() {
     if (!context_) return;
+    if (polls_) throw CallFailed(HL_INVALID_OPERATION, "close: not in a callback of poll; close it afterwards");
     makeCurrent();
     current_ = nullptr;
     const OtherThreadsRun other_threads_run;
@@ -91,12 +92,26 @@ class Context {
   }
   int poll() {
     makeCurrentAndLive();
+    const Polling polling(polls_);  // a callback may throw
     const int delivered = context_->poll();
     throwFailure();
     return delivered;
   }
 
  private:
+  /// Sets a flag as long as it lives; within another one it changes nothing.
+  class Polling {
+   public:
+    explicit Polling(bool& flag) : flag_(flag), before_(std::exchange(flag, true)) {}
+    ~Polling() { flag_ = before_; }
+    Polling(const Polling&) = delete;
+    Polling& operator=(const Polling&) = delete;
+
+   private:
+    bool& flag_;
+    const bool before_;
+  };
+
   static std::unique_ptr<hl::Context> open(const std::string& url) {
     try {
       const OtherThreadsRun other_threads_run;
@@ -108,7 +123,8 @@ class Context {
 
   inline static thread_local Context* current_ = nullptr;  // may be that of a context that is current no more
 
-  std::string lost_;  ///< why the conversation has ended; empty: it has not
+  bool polls_ = false;  ///< within poll(), where callbacks run
+  std::string lost_;    ///< why the conversation has ended; empty: it has not
   std::unique_ptr<hl::Context> context_;
 };
 

@@ -204,6 +204,21 @@ class Touching(unittest.TestCase):
 
         self.assertEqual(wait_for("the exception", poll).args, (7,))
 
+    def test_it_is_not_closed_by_a_callback(self):
+        refused = []
+
+        def close(event):
+            with self.assertRaisesRegex(hl.InvalidOperationError, "close it afterwards"):
+                self.touch.close()
+            refused.append(event)
+
+        self.touch.on("touch", close)
+        self.show_floor()
+        wait_for("a refusal", lambda: self.touch.poll() and refused)
+        self.assertIsNotNone(self.touch.state(), "it is open as before")
+        with self.touch.frame():
+            self.touch.draw([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+
     def test_samples_are_a_structured_array(self):
         self.touch.keep_samples(500)
         (samples,) = wait_for("samples", lambda: [s for s in [self.touch.samples()] if len(s) > 10])
