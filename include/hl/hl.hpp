@@ -49,7 +49,8 @@ inline void check() {
   throw CallError(code, hlGetString(HL_ERROR_STRING));
 }
 
-/// A conversation with a server. Movable; destroyed at the latest before the thread that it is current on ends.
+/// A conversation with a server. Movable; destroyed at the latest before the thread that it is current on ends, and not
+/// by a function given to onEvent().
 class Context {
  public:
   using EventFunction = std::function<void(const HLevent&)>;

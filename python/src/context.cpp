@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "base/flag.h"
 #include "bindings.h"
 #include "calls.h"
 #include "errors.h"
@@ -92,26 +93,14 @@ class Context {
   }
   int poll() {
     makeCurrentAndLive();
-    const Polling polling(polls_);  // a callback may throw
+    if (polls_) throw CallFailed(HL_INVALID_OPERATION, "hlPoll: not in a callback of hlPoll");
+    const hl::Flag polls(polls_);  // a callback may throw
     const int delivered = context_->poll();
     throwFailure();
     return delivered;
   }
 
  private:
-  /// Sets a flag as long as it lives; within another one it changes nothing.
-  class Polling {
-   public:
-    explicit Polling(bool& flag) : flag_(flag), before_(std::exchange(flag, true)) {}
-    ~Polling() { flag_ = before_; }
-    Polling(const Polling&) = delete;
-    Polling& operator=(const Polling&) = delete;
-
-   private:
-    bool& flag_;
-    const bool before_;
-  };
-
   static std::unique_ptr<hl::Context> open(const std::string& url) {
     try {
       const OtherThreadsRun other_threads_run;

@@ -21,6 +21,13 @@ inline std::string_view withoutByteOrderMark(std::string_view text) {
   return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
+/// Without any of these letters.
+inline std::string without(std::string_view letters, std::string_view text) {
+  std::string result(text);
+  std::erase_if(result, [&](char c) { return letters.find(c) != std::string_view::npos; });
+  return result;
+}
+
 /// In lower case.
 inline std::string lowered(std::string_view text) {
   std::string result(text);

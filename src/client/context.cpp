@@ -41,9 +41,13 @@ void HLcontext::unbindMissing() {
     if (!textures.contains(use.texture)) use.texture = 0;
 }
 
-void HLcontext::cancelFrame() {
-  if (definition) draw = std::move(definition->outside);
+void HLcontext::leaveDefinition() {
+  draw = std::move(definition->outside);
   definition.reset();
+}
+
+void HLcontext::cancelFrame() {
+  if (definition) leaveDefinition();
   frame = {};
   objects.undoChanges();
   textures.undoChanges();

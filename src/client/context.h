@@ -71,6 +71,8 @@ struct HLcontext {
   hl::client::Draft closeFrame();
   /// Textures that are no more are bound no more.
   void unbindMissing();
+  /// Drawing goes on as it was before the open definition, which ends.
+  void leaveDefinition();
   /// Nothing of it has been; an open definition ends.
   void cancelFrame();
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/duration.h"
 #include "base/error.h"
 #include "client/open_link.h"
 
@@ -32,7 +33,7 @@ proto::ClientMessage openMessage(const ServerUrl& url) {
 }
 
 proto::Welcome awaitWelcome(Link& link, double timeout_s) {
-  const std::int64_t until_ns = monotonicNow_ns() + static_cast<std::int64_t>(timeout_s * 1e9);
+  const std::int64_t until_ns = monotonicNow_ns() + durationOf(timeout_s).count();
   proto::ServerReply reply;
   for (;;) {
     while (link.take(reply)) {

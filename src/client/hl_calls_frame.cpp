@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/clock.h"
+#include "base/duration.h"
 #include "client/call.h"
 
 using hl::client::call;
@@ -28,7 +29,7 @@ void closeFrame(HLcontext& context) {
 
 HLboolean finish(HLcontext& context, double seconds) {
   closeFrame(context);
-  const auto wait_ns = static_cast<std::int64_t>(std::min(seconds, kForever_s) * 1e9);
+  const std::int64_t wait_ns = hl::durationOf(std::min(seconds, kForever_s)).count();
   return context.conversation.finish(hl::monotonicNow_ns() + wait_ns, context.errors, context.events) ? HL_TRUE
                                                                                                       : HL_FALSE;
 }

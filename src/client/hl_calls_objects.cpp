@@ -42,8 +42,7 @@ void endDefinition(HLcontext& context) {
   context.frame.deleted_objects.erase(object);
   context.frame.forgetUpdates(object);
   context.frame.objects.insert_or_assign(object, std::move(definition.items));
-  context.draw = std::move(definition.outside);
-  context.definition.reset();
+  context.leaveDefinition();
 }
 
 Numbers copied(const HLdouble* begin, std::size_t count) {
@@ -107,8 +106,7 @@ void hlEndObject(void) {
 void hlCancelObject(void) {
   call(__func__, [](HLcontext& context) {
     if (!context.definition) throw Fault(HL_INVALID_OPERATION, "only after hlNewObject");
-    context.draw = std::move(context.definition->outside);
-    context.definition.reset();
+    context.leaveDefinition();
   });
 }
 

@@ -29,13 +29,6 @@ struct Columns {
   }
 };
 
-// The names of a header, without what programs write around them.
-std::string namesIn(std::string_view line) {
-  std::string names(withoutByteOrderMark(line));
-  std::erase_if(names, [](char c) { return std::string_view(" \t\r\"").find(c) != std::string_view::npos; });
-  return names;
-}
-
 bool readHeader(std::string_view line, Columns& columns) {
   for (columns.turned = false;; columns.turned = true) {
     for (const bool gripper : {false, true}) {
@@ -85,7 +78,7 @@ std::vector<PathSample> readPath(const std::string& file) {
   std::string line;
   std::getline(in, line);
   Columns columns;
-  if (!readHeader(namesIn(line), columns))
+  if (!readHeader(without(" \t\r\"", withoutByteOrderMark(line)), columns))  // that programs write around names
     throw Error(file + ":1: the first line must be the header " + kHeaders + "; it is '" + shown(trimmed(line)) + "'");
   std::vector<PathSample> path;
   for (std::size_t number = 2; std::getline(in, line); ++number) {

@@ -57,11 +57,7 @@ bool isUnitNormal(const PointNumbers& numbers) {
 }
 
 // "X,Y,Z" and more, as spreadsheets begin a table.
-bool namesColumns(std::string_view line) {
-  std::string letters = lowered(line);
-  std::erase_if(letters, [](char c) { return std::string_view(" \t,;\"").find(c) != std::string_view::npos; });
-  return letters.starts_with("xyz");
-}
+bool namesColumns(std::string_view line) { return without(" \t,;\"", lowered(line)).starts_with("xyz"); }
 
 PointRecord xyzRecord(bool normals) {
   PointRecord record;

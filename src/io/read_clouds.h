@@ -11,7 +11,7 @@ namespace hl {
 
 /// Whether a reader takes files of this ending (".las") as clouds. Of a .ply, isPlyOfPoints() decides.
 bool readsClouds(const std::string& ending);
-/// A PLY file whose header states vertices and of nothing that joins them.
+/// A PLY file whose header has vertices, and nothing that joins them.
 bool isPlyOfPoints(const std::string& path);
 /// Empty, or what to do with a file of this ending that holds points but cannot be read.
 std::string cloudAdvice(const std::string& ending);

@@ -40,10 +40,8 @@ struct EsriHeader {
 // Reads up to the first word that is a number where a key should be, which is the first sample.
 double readEsriHeader(TextWords& words, EsriHeader& header) {
   std::string_view word;
-  bool is_first = true;
   while (words.next(word)) {
-    const std::string key = lowered(is_first ? withoutByteOrderMark(word) : word);
-    is_first = false;
+    const std::string key = lowered(word);
     if (key.empty() || std::isalpha(static_cast<unsigned char>(key[0])) == 0 || key == "nan")
       return words.numberOf(key, "a height");
     const double value = words.number(shown(key).c_str());
@@ -86,10 +84,9 @@ NumpyHeader numpyHeaderOf(std::string_view text) {
   NumpyHeader header;
   header.type = valueOf(text, "descr");
   header.fortran = valueOf(text, "fortran_order").starts_with("True");
-  std::string shape(valueOf(text, "shape"));
-  if (!shape.starts_with('(')) throw Error("has no shape: a height field has two sides");
-  shape.erase(0, 1);
-  std::erase_if(shape, [](char c) { return c == ' ' || c == 'L'; });
+  const std::string_view sides = valueOf(text, "shape");
+  if (!sides.starts_with('(')) throw Error("has no shape: a height field has two sides");
+  const std::string shape = without(" L", sides.substr(1));
   double side[2] = {0, 0};
   const char *at = shape.data(), *const last = at + shape.size();
   for (double& one : side) {
@@ -139,9 +136,7 @@ void readEsriGrid(const ModelFile& file, HeightSink& sink) {
       row[i] = static_cast<float>(i + j == 0 ? first : words.number("a height"));
     sink.samples(row.data(), row.size() * sizeof(float));
   }
-  std::string_view rest;
-  if (words.next(rest))
-    throw Error(fmt::format("has more samples than the {} x {} of its header", size.columns, size.rows));
+  words.checkEnd({size.columns, size.rows});
 }
 
 // An array in Fortran's order is a grid whose rows and columns have changed places.

@@ -155,9 +155,8 @@ void copyWords(TextWords& words, std::uint64_t count, VolumeSink& sink) {
   }
 }
 
-void copyText(ByteFile in, NumberType type, std::uint64_t count, VolumeSink& sink) {
-  TextWords words(std::move(in), "a NRRD file");
-  switch (keptAs(type)) {
+void copyKept(TextWords& words, SampleKind kind, std::uint64_t count, VolumeSink& sink) {
+  switch (kind) {
     case SampleKind::kInt16:
       return copyWords<std::int16_t>(words, count, sink);
     case SampleKind::kUint16:
@@ -165,6 +164,12 @@ void copyText(ByteFile in, NumberType type, std::uint64_t count, VolumeSink& sin
     case SampleKind::kFloat32:
       return copyWords<float>(words, count, sink);
   }
+}
+
+void copyText(ByteFile in, NumberType type, const std::array<std::uint32_t, 3>& side, VolumeSink& sink) {
+  TextWords words(std::move(in), "a NRRD file");
+  copyKept(words, keptAs(type), samplesIn(side), sink);
+  words.checkEnd({side[0], side[1], side[2]});
 }
 
 bool isNrrdText(const std::string& encoding) { return encoding == "ascii" || encoding == "text" || encoding == "txt"; }
@@ -191,7 +196,7 @@ void readNrrd(const ModelFile& file, VolumeSink& sink) {
   const bool text = isNrrdText(header.encoding);
   data.expect(text ? count : bytes);  // a word has a letter at least
   sink.header({side, keptAs(header.type), {}, {}, frame});
-  if (text) return copyText(std::move(data), header.type, count, sink);
+  if (text) return copyText(std::move(data), header.type, side, sink);
   const bool big_here = std::endian::native == std::endian::big;
   copyNumbers(data, {header.type, header.big_endian.value_or(big_here) != big_here}, count, sink);
 }

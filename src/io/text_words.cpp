@@ -1,11 +1,13 @@
 #include "io/text_words.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <system_error>
+#include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace hl {
 
@@ -14,6 +16,11 @@ namespace {
 constexpr int kNoLetter = -1;
 
 }  // namespace
+
+TextWords::TextWords(ByteFile in, std::string kind) : in_(std::move(in)), kind_(std::move(kind)) {
+  filled_ = in_.some(room_.data(), room_.size());
+  at_ = filled_ - withoutByteOrderMark({room_.data(), filled_}).size();
+}
 
 int TextWords::letter() {
   if (at_ == filled_) {
@@ -52,6 +59,11 @@ double TextWords::numberOf(std::string_view word, const char* what) const {
   if (end != last || error == std::errc::invalid_argument)
     throw Error(fmt::format("is not {}: '{}' is no number for {}", kind_, shown(word), what));
   return value;
+}
+
+void TextWords::checkEnd(std::initializer_list<std::uint64_t> sides) {
+  std::string_view rest;
+  if (next(rest)) throw Error(fmt::format("has more samples than the {} of its header", fmt::join(sides, " x ")));
 }
 
 std::string shown(std::string_view text) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,14 +15,18 @@ namespace hl {
 /// Every call throws hl::Error, without the file's name, when the file is not what it should be.
 class TextWords {
  public:
-  /// `kind`: what the file should be, for errors: "an Esri grid".
-  TextWords(ByteFile in, std::string kind) : in_(std::move(in)), kind_(std::move(kind)) {}
+  /// From where `in` stands; a byte order mark there is no word. `kind`: what the file should be, for errors: "an Esri
+  /// grid".
+  TextWords(ByteFile in, std::string kind);
 
   /// False at the end. The word is valid until the next call.
   bool next(std::string_view& word);
   /// The next word as a number, `what` it is for.
   double number(const char* what);
   double numberOf(std::string_view word, const char* what) const;
+  /// After the last sample of a grid of these `sides`: throws when there are more, as all of them then lie elsewhere
+  /// than the header says.
+  void checkEnd(std::initializer_list<std::uint64_t> sides);
 
  private:
   int letter();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/duration.h"
 #include "base/error.h"
 #include "record/record_runs.h"
 #include "record/recorded_scene.h"
@@ -103,7 +104,7 @@ void BlackBoxes::remember() {
   if (capture_.stateAmong(rings_.ticks) == MemoryCapture::State::kReady && capture_.scene() == last.scene &&
       (checkpoints_.empty() || checkpoints_.back().next_tick != capture_.nextTick()))
     checkpoints_.push_back({capture_.block(), capture_.nextTick(), now_ns});
-  while (checkpoints_.size() > 1 && now_ns - checkpoints_[1].time_ns > static_cast<std::int64_t>(1e9 * kBefore_s))
+  while (checkpoints_.size() > 1 && now_ns - checkpoints_[1].time_ns > durationOf(kBefore_s).count())
     checkpoints_.pop_front();
   const bool due = checkpoints_.empty() || now_ns - checkpoints_.back().time_ns >= kBetween_ns;
   if (scene_ && due && !capture_.isWanted()) capture_.want(scenes_);

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "base/clock.h"
+#include "base/duration.h"
 #include "base/guarded_thread.h"
 #include "base/periodic.h"
 #include "device/simulated_hand.h"
@@ -27,7 +28,7 @@ class SelfTestThread {
     result.grant = requestRealtime(kServoPriority, spareCore(0));
     ready_ = true;
     const double period_s = 1 / device_.info().servo_rate_Hz;
-    runPeriodic(static_cast<std::int64_t>(1e9 * period_s), running_, counters_, [&](std::int64_t) {
+    runPeriodic(durationOf(period_s).count(), running_, counters_, [&](std::int64_t) {
       if (!guarded([&] { step(result.calls); })) test_.end(FaultReason::kDeviceLost);
       part_ = test_.part();
       if (part_ == SelfTestPart::kDone) running_ = false;

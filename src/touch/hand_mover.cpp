@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/duration.h"
 #include "base/guarded_thread.h"
 #include "base/periodic.h"
 #include "touch/exploration.h"
@@ -44,7 +45,7 @@ void HandMover::bringToStart() {
   hand_->setHandGoal(goal_D);
   const std::int64_t now_ns = monotonicNow_ns();
   const std::int64_t step_ns = 1'000'000;
-  for (std::int64_t t = now_ns - static_cast<std::int64_t>(kApproach_s * 1e9); t < now_ns; t += step_ns) {
+  for (std::int64_t t = now_ns - durationOf(kApproach_s).count(); t < now_ns; t += step_ns) {
     device_.read(t);
     device_.write(Vec3::Zero());
   }
@@ -145,7 +146,7 @@ bool HandMover::moveAside(double top_D, double most_s) {
   aside_ = false;
   aside_top_D_ = std::max(0.0, top_D);
   constexpr auto kLook = std::chrono::milliseconds(5);
-  const std::int64_t end_ns = monotonicNow_ns() + static_cast<std::int64_t>(1e9 * most_s);
+  const std::int64_t end_ns = monotonicNow_ns() + durationOf(most_s).count();
   while (thread_.running() && !aside_ && monotonicNow_ns() < end_ns) std::this_thread::sleep_for(kLook);
   return aside_;
 }

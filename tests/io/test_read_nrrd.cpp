@@ -209,6 +209,8 @@ TEST(ReadNrrd, WhatIsBrokenGivesOneLine) {
   EXPECT_EQ(refusal(fileOf("sizes: 5 4\n")), "is not a sound NRRD file: it has dimension 3 and 2 sizes");
   EXPECT_EQ(refusal(fileOf("sizes: 1e6 1e6 1e6\n")), "ends before its last sample");
   EXPECT_EQ(refusal(fileOf("sizes: 5 4 1e30\n")).find("has 5 x 4 x 1e+30 samples: "), 0U);
+  EXPECT_EQ(refusal(headerWith("float", "encoding: ascii\n\n") + textSamples() + "7"),
+            "has more samples than the 5 x 4 x 3 of its header");
   EXPECT_EQ(refusal(headerWith("uchar", "encoding: ascii\n\n") + textSamples().substr(0, 100)),
             "ends before its last sample");
   EXPECT_EQ(refusal(headerWith("short", "encoding: ascii\n\n70000 " + textSamples())),
