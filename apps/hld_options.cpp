@@ -25,9 +25,7 @@ void addNetworkOptions(CLI::App& app, HldOptions& options) {
   app.add_option("--tls-key", server.tls.key, "PEM file: the certificate's key")->group("Network");
   app.add_option("--token-file", options.token_file, "file with the token that clients must show; read again on SIGHUP")
       ->group("Network");
-  app.add_option("--page-dir", server.page_folder, "folder of the built page")
-      ->check(CLI::ExistingDirectory)
-      ->group("Network");
+  addPageFolderOption(app, server.page_folder)->group("Network");
 }
 
 void addHandOptions(CLI::App& app, HldOptions& options) {

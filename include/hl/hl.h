@@ -7,7 +7,7 @@
  * Errors. A call that makes an error changes nothing else. The context keeps its first error until hlGetError takes it.
  * Without a current context a call does nothing, returns 0, and the thread keeps HL_NO_CONTEXT. NaN and infinities are
  * HL_INVALID_VALUE, and so is a null pointer where there is something to read or write. Between hlBegin and hlEnd only
- * hlVertex*, hlNormal* and hlTexCoord* may be called: every other call is HL_INVALID_OPERATION.
+ * hlVertex*, hlNormal*, hlTexCoord* and hlCancelFrame may be called: every other call is HL_INVALID_OPERATION.
  *
  * Frames. What happens between two hlFlush (or hlFinish) is one frame, and becomes touchable all at once. What a frame
  * draws outside of definitions (hlBegin .. hlEnd, arrays, hlCallObject) replaces the world; a frame that draws nothing
@@ -93,8 +93,9 @@ HL_API const char* hlGetStringi(HLenum name, HLuint device);
  */
 HL_API void hlClear(void);
 /** The frame ends without effect, and another begins: drops all that it has drawn, defined, updated and deleted, of
- * objects and of textures, and ends a definition that is open without effect. The state of the calls stays. For a
- * program that cannot go on with a frame, as after an exception. */
+ * objects and of textures, and ends primitives and a definition that are open without effect: it is allowed between
+ * hlBegin and hlEnd too. The state of the calls stays. For a program that cannot go on with a frame, as after an
+ * exception. */
 HL_API void hlCancelFrame(void);
 /** Ends the frame and sends it, if there is anything in it; never waits. When more than is good is on its way already
  * (HL_BUSY), or, without an error, the last frame was sent less than 1 / HL_MAX_FRAME_RATE ago or the server is still
@@ -125,7 +126,8 @@ HL_API void hlFrameInterval(HLdouble seconds);
 /** Begins primitives of `mode` (HL_POINTS .. HL_POLYGON), placed by the matrix and with the surface and name of this
  * moment. HL_INVALID_ENUM: not a mode. */
 HL_API void hlBegin(HLenum mode);
-/** Ends them. HL_INVALID_OPERATION without hlBegin. */
+/** Ends them. Vertices that do not make up a whole primitive are left out, without an error, as in GL.
+ * HL_INVALID_OPERATION without hlBegin. */
 HL_API void hlEnd(void);
 
 /** A vertex, in metres times the matrix, with the current normal and texture coordinates; z is 0 in the forms with two

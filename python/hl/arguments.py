@@ -1,5 +1,6 @@
 """What users give: taken as C++ wants it, or refused by an InvalidValueError, whose line says what to give."""
 
+import contextlib
 import json
 import operator
 import os
@@ -63,7 +64,7 @@ def implicit(solid: Any) -> str:
     if isinstance(solid, str):
         return solid
     try:
-        return json.dumps(solid)
+        return json.dumps(solid, default=_plain)
     except (TypeError, ValueError, RecursionError) as error:
         raise InvalidValueError(f"an implicit surface is a dict, as in a scene file: {error}") from None
 
@@ -120,6 +121,9 @@ def integers(numbers: Any, name: str) -> npt.NDArray[Any]:
         array = np.asarray(numbers)
     except ValueError as error:
         raise InvalidValueError(f"{name} must be integers: {error}") from None
+    if array.dtype == object:
+        with contextlib.suppress(TypeError, OverflowError):  # else it is refused as objects
+            array = np.array([operator.index(one) for one in array.flat], dtype=np.int64).reshape(array.shape)
     if array.size > 0 and not np.issubdtype(array.dtype, np.integer):
         raise InvalidValueError(f"{name} must be integers, and are {array.dtype}")
     return array
@@ -142,6 +146,13 @@ def path(source: Union[str, bytes, "os.PathLike[Any]"]) -> bytes:
     if b"\0" in name:
         raise InvalidValueError("a name must not have a zero in it")
     return name
+
+
+def _plain(value: Any) -> Any:
+    """Of NumPy's numbers and arrays, which JSON does not know, Python's own."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"{_shown(value)} is no number, text, list or dict")
 
 
 def _shown(value: Any) -> str:

@@ -177,8 +177,9 @@ class Touch:
         """One frame: what is drawn inside becomes touchable all at once, and replaces the world of the frame before.
 
         A frame that draws nothing leaves the world, and changes only what it defines or updates. wait: until it is
-        shown. After an exception inside, nothing is sent: the world, objects and textures
-        are as if the frame had not begun. The current material, name, matrix and textures stay as they were set.
+        shown. After an exception inside, or where an hlBegin or hlNewObject has no end, nothing is sent: the world,
+        objects and textures are as if the frame had not begun. The current material, name, matrix and textures stay as
+        they were set.
         """
         self.make_current()
         if self._is_in_frame:
@@ -192,10 +193,11 @@ class Touch:
         finally:
             self._is_in_frame = False
         self.make_current()
-        if wait:
-            calls.hlFinish()
-        else:
-            calls.hlFlush()
+        try:
+            calls.hlFinish() if wait else calls.hlFlush()
+        except InvalidOperationError:  # hlBegin or hlNewObject without its end: it must not stay open in the next frame
+            self._cancel_frame()
+            raise
 
     def _cancel_frame(self) -> None:
         with contextlib.suppress(InvalidOperationError):  # it was closed inside

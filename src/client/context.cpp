@@ -47,6 +47,7 @@ void HLcontext::leaveDefinition() {
 }
 
 void HLcontext::cancelFrame() {
+  recorder.cancel();
   if (definition) leaveDefinition();
   frame = {};
   objects.undoChanges();

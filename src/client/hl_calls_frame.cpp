@@ -41,7 +41,7 @@ void hlClear(void) {
 }
 
 void hlCancelFrame(void) {
-  call(__func__, [](HLcontext& context) { context.cancelFrame(); });
+  call(__func__, When::kAlways, [](HLcontext& context) { context.cancelFrame(); });
 }
 
 void hlFlush(void) {

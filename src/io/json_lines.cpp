@@ -146,11 +146,11 @@ boost::json::parse_options deepest() {
 
 }  // namespace
 
-JsonLines::JsonLines(const std::string& file, std::string_view text) : text_(text) {
+JsonLines::JsonLines(const std::string& before_line, std::string_view text) : text_(text) {
   boost::json::basic_parser<LineHandler> parser(deepest());
   const boost::json::error_code error = follow(text, parser);
   if (!error) return;
-  const std::string where = file + ":" + std::to_string(parser.handler().line) + ": ";
+  const std::string where = before_line + std::to_string(parser.handler().line) + ": ";
   if (parser.handler().out_of_range) throw Error(where + "a number is out of range");
   if (parser.handler().twice) throw Error(where + "the name \"" + shown(*parser.handler().twice) + kTwice);
   if (error == boost::json::error::too_deep)

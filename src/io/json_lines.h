@@ -9,9 +9,10 @@ namespace hl {
 
 class JsonLines {
  public:
-  /// `text` must outlive this. Throws hl::Error "FILE:LINE: ..." for text that is not JSON, nested too deep, with a
-  /// number out of range, or with a name that is twice in one object.
-  JsonLines(const std::string& file, std::string_view text);
+  /// `text` must outlive this; `before_line`: what errors have before the number of a line, as "FILE:". Throws
+  /// hl::Error for text that is not JSON, nested too deep, with a number out of range, or with a name that is twice in
+  /// one object.
+  JsonLines(const std::string& before_line, std::string_view text);
 
   /// Line of the value at a path such as "objects[2].material.stiffness", or of the nearest value around it; from 1.
   /// Reads the text again: it is for errors.

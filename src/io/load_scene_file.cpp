@@ -66,7 +66,7 @@ class SceneFile {
         folder_(fs::path(path).parent_path()),
         options_(options),
         text_(readText(path)),
-        lines_(path, text_),
+        lines_(place_, text_),
         decoder_([this](const std::string& where, const std::string& message) { fail(where, message); }),
         surfaces_(folder_, options_) {
     parse();

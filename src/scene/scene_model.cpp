@@ -252,7 +252,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hie
   }
   for (SceneSurface& surface : scene.surfaces) {
     if (const std::string warning = warningOf(*surface.source); !warning.empty())
-      warnings.push_back(surface.name.empty() ? warning : surface.name + ": " + warning);
+      warnings.push_back(surface.name.empty() || surface.name == name ? warning : surface.name + ": " + warning);
     instances.push_back(instanceOf(std::move(surface), ++key));
   }
   const std::uint64_t first_body = key + 1;

@@ -42,7 +42,9 @@ std::string constantVolume() {
 
 TEST(Command, AVolumeWithoutASurfaceSaysWhatItsValuesAre) {
   const Result info = call("info " + constantVolume());
-  EXPECT_NE(info.output.find("all values of the volume are 0: it has no surface"), std::string::npos) << info.output;
+  EXPECT_NE(info.output.find("nrrd: all values of the volume are 0: it has no surface"), std::string::npos)
+      << info.output;
+  EXPECT_EQ(info.output.find("hl_cmd_constant.nrrd: hl_cmd_constant.nrrd:"), std::string::npos) << info.output;
   EXPECT_NE(info.output.find("surface at 0, matter above; 0 triangles"), std::string::npos) << info.output;
   const Result other = call("info ct:phantom:41 --iso 50000");
   EXPECT_EQ(other.code, 2);
@@ -181,6 +183,7 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
         "trace teapot --deflection 1e-5 --path " + path + " --out " + out,
         std::string("info teapot --deflection 1e-5"),
         std::string("touch --page-dir /nonexistent"),
+        std::string("touch --page-dir /proc"),
         std::string("touch --device theremin"),
         std::string("touch --device sim:abacus"),
         std::string("touch --device replay:/nonexistent --no-open --port 0"),

@@ -80,6 +80,16 @@ TEST(SentScene, SurfacesOfASceneFileComeAsTheyAre) {
   }
 }
 
+// Not the descriptor by which it is read.
+TEST(SentScene, AnErrorOfItsTextNamesTheFileAndTheLine) {
+  try {
+    sent(fileWith("text.hl.json", "{\n\"objects\": [,]}"), "mine.hl.json");
+    FAIL() << "it was read";
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("mine.hl.json: line 2: this is not JSON")) << error.what();
+  }
+}
+
 // Surfaces of one volume share its samples; there too.
 TEST(SentScene, AVolumeThatIsSharedComesOnce) {
   const std::string path = fileWith("shared.hl.json", R"({"objects":[{"volume":{"builtin":"ct:phantom:41"}},

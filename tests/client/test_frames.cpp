@@ -53,8 +53,12 @@ TEST_F(CallsTest, ACancelledFrameHasNotBeen) {
   hlBindTexture(HL_TEXTURE_2D, later);
   hlTexImage2D(HL_TEXTURE_2D, 0, HL_LUMINANCE, 1, 1, 0, HL_LUMINANCE, HL_UNSIGNED_BYTE, "b");
   hlNewObject(3);
+  hlBegin(HL_TRIANGLES);
+  hlVertex3d(0, 0, 0);
   hlCancelFrame();
   expectError(HL_NO_ERROR);
+  hlEnd();
+  expectError(HL_INVALID_OPERATION);
   EXPECT_EQ(integer(HL_CURRENT_OBJECT), 0);
   EXPECT_EQ(integer(HL_TEXTURE_BINDING_2D), 0);
   EXPECT_EQ(hlIsTexture(image), HL_TRUE);

@@ -152,7 +152,7 @@ class RandomCall {
   }
   HLenum cancelFrame() {
     hlCancelFrame();
-    if (model_.between) return HL_INVALID_OPERATION;
+    model_.between = false;
     if (model_.defining != 0) leaveDefinition();
     model_.objects = model_.kept;
     model_.joints.clear();

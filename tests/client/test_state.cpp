@@ -153,7 +153,6 @@ TEST_F(CallsTest, NothingButVerticesBetweenBeginAndEnd) {
                                       [] { hlUpdateVertices(3, 0, 0, nullptr, nullptr); },
                                       [] { hlGenObjects(0, nullptr); },
                                       [] { hlClear(); },
-                                      [] { hlCancelFrame(); },
                                       [] { hlFlush(); },
                                       [] { hlFinish(); },
                                       [] { hlFinishTimeout(0); },

@@ -169,11 +169,21 @@ class Volumes(unittest.TestCase):
 
     def test_an_implicit_surface_pushes_as_far_as_it_reaches(self):
         ball = {"expression": {"sphere": {"radius": 0.02}}}
-        for scene in (hl.Scene(implicit=ball), hl.Scene(implicit='{"expression": {"sphere": {"radius": 0.02}}}')):
+        of_numpy = {"expression": {"sphere": {"radius": np.float64(0.02)}}, "error": np.float32(1e-6)}
+        for given in (ball, of_numpy, '{"expression": {"sphere": {"radius": 0.02}}}'):
+            scene = hl.Scene(implicit=given)
             fingers = hl.Fingers(scene, 1, hl.Settings(radius=0.001, spring=1000))
             fingers.step([[0, 0.03, 0]])
             felt = fingers.step([[0, 0.019, 0]])
             np.testing.assert_allclose(felt.force, [[0, 2, 0]], atol=0.02)
+
+    def test_whole_numbers_of_python_are_indices_whatever_array_they_are_in(self):
+        vertices, triangles = SQUARE
+        boxed = np.array(triangles, dtype=object)
+        self.assertEqual(hl.Scene(vertices, boxed).primitives, hl.Scene(vertices, triangles).primitives)
+        for wrong in (0.5, None, "1", 2**70):
+            boxed[0, 0] = wrong
+            self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(vertices, boxed))
 
     def test_options_of_other_scenes_are_refused_by_their_names(self):
         grid = np.zeros((3, 3), dtype=np.float32)
@@ -209,7 +219,7 @@ class Volumes(unittest.TestCase):
         for _ in range(100_000):
             deep = {"shell": deep}
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(implicit=deep))
-        for wrong in ({}, {"expression": {"ball": {}}}, {"expression": {"sphere": {"radius": -1}}}, "sphere", 3, {1}):
+        for wrong in ({}, {"expression": {"ball": {}}}, {"expression": {"sphere": {"radius": -1}}}, "sphere", 3, {1}, {"a": object()}):
             self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(implicit=wrong))
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", implicit={}))
 

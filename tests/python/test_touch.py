@@ -311,6 +311,16 @@ class Touching(unittest.TestCase):
                 self.touch.draw(*FLOOR)
             self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), primitives)
 
+    def test_what_a_frame_leaves_open_is_refused_with_it_and_not_open_in_the_next(self):
+        self.show_floor()
+        for opened in (lambda: hl.calls.hlNewObject(7), lambda: hl.calls.hlBegin(hl.calls.HL_TRIANGLES)):
+            for wait in (True, False):
+                with self.assertRaises(hl.InvalidOperationError), self.touch.frame(wait=wait):
+                    opened()
+                with self.touch.frame():
+                    self.touch.draw(*FLOOR)
+                self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), 2)
+
     def test_a_definition_that_fails_leaves_the_object_as_it_was(self):
         with self.touch.frame(), self.touch.define() as block:
             self.touch.body("box", mass=0.1)

@@ -431,7 +431,8 @@ class App {
 
   private touchedInWords(state: State): string {
     const several = this.live_.store.counts().objects > 1;
-    const objects = state.touched.map((object) => `object ${object + 1}`);
+    const placed = this.live_.layout?.placed;
+    const objects = state.touched.map((object) => placed?.[object]?.label || `object ${object + 1}`);
     return state.contacts.length === 0 ? "" : several && objects.length > 0 ? objects.join(" and ") : "the model";
   }
 

@@ -77,7 +77,10 @@ export class Panel {
     this.onChoice("theme", (value) => actions.theme(value as ThemeChoice));
     this.onStiffness();
     element("rearm").addEventListener("click", () => actions.rearm());
-    element("reset-view").addEventListener("click", () => actions.resetView());
+    element("reset-view").addEventListener("click", () => {
+      this.endSection();
+      actions.resetView();
+    });
     element("bring-back").addEventListener("click", () => actions.bringHandBack());
     this.onCheck("sound", (on) => actions.sound(on));
     this.onCheck("pause", (on) => actions.pause(on));
@@ -86,7 +89,7 @@ export class Panel {
     element("save-picture").addEventListener("click", () => actions.savePicture());
     element("save-samples").addEventListener("click", () => actions.saveSamples());
     element("save-scene").addEventListener("click", () => actions.saveScene());
-    element("help-open").addEventListener("click", () => element<HTMLDialogElement>("help").showModal());
+    element("help-open").addEventListener("click", () => this.showHelp());
     window.addEventListener("keydown", (event) => this.shortcut(event));
     this.foldByHeight();
   }
@@ -230,9 +233,12 @@ export class Panel {
 
   /** `held_N_m`: what the server holds it below, because it shook; 0: nothing. */
   private showStiffness(value_N_m: number, held_N_m = 0): void {
-    element<HTMLInputElement>("stiffness").value = String(value_N_m);
+    const slider = element<HTMLInputElement>("stiffness");
     const held = held_N_m > 0 && held_N_m < value_N_m ? `, held at ${formatCount(Math.round(held_N_m))}` : "";
-    setText("stiffness-value", `${formatCount(value_N_m)}${kThinSpace}N/m${held}`);
+    const words = `${formatCount(value_N_m)}${kThinSpace}N/m${held}`;
+    slider.value = String(value_N_m);
+    slider.setAttribute("aria-valuetext", words);
+    setText("stiffness-value", words);
     element("stiffness-value").classList.toggle("held", held !== "");
   }
 
@@ -259,6 +265,20 @@ export class Panel {
     };
     side.addEventListener("change", act);
     share.addEventListener("input", act);
+  }
+
+  /** A view that is cut is none of the whole model. */
+  private endSection(): void {
+    const side = element<HTMLSelectElement>("section");
+    side.value = "off";
+    side.dispatchEvent(new Event("change"));
+  }
+
+  /** Close has the focus, at the end of what may be longer than the window: it is read from the begin. */
+  private showHelp(): void {
+    const help = element<HTMLDialogElement>("help");
+    help.showModal();
+    help.scrollTop = 0;
   }
 
   private sendSettings(control: string, value: boolean, change: SettingsChange): void {

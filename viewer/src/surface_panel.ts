@@ -134,7 +134,9 @@ export class SurfacePanel {
       const value = chosen[knob.field] as number | undefined;
       const slider = element<HTMLInputElement>(knob.id);
       slider.value = String(value ?? knob.rest);
-      setText(`${knob.id}-value`, value === undefined ? kSceneDecides : knob.text(value));
+      const words = value === undefined ? kSceneDecides : knob.text(value);
+      setText(`${knob.id}-value`, words);
+      slider.setAttribute("aria-valuetext", words);
       for (const part of [slider, element(`${knob.id}-value`)]) {
         part.classList.toggle("unset", value === undefined);
       }

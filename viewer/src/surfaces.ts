@@ -29,6 +29,7 @@ function stepOf(most: number): number {
 export function knobOf(info: QuantityInfo): Knob {
   const step = stepOf(info.usual);
   const decimals = Math.max(0, Math.round(-Math.log10(step)));
+  const never = info.words.endsWith("0: never");
   return {
     id: `surface-${info.name.replaceAll(" ", "-")}`,
     label: info.name.charAt(0).toUpperCase() + info.name.slice(1),
@@ -37,7 +38,9 @@ export function knobOf(info: QuantityInfo): Knob {
     max: info.usual,
     step,
     rest: info.otherwise,
-    text: (value) => (info.unit === "" ? value.toFixed(decimals) : formatFixed(value, info.unit.replace(" ", "\u202f"), decimals)),
+    text: (value) => (value === 0 && never ? "never"
+      : info.unit === "" ? value.toFixed(decimals)
+      : formatFixed(value, info.unit.replace(" ", "\u202f"), decimals)),
   };
 }
 

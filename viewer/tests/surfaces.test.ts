@@ -28,5 +28,11 @@ describe("surface settings", () => {
     const friction = knobOf(create(QuantityInfoSchema, { field: "staticFriction", name: "static friction", usual: 1.5 }));
     expect(friction).toMatchObject({ id: "surface-static-friction", label: "Static friction", step: 0.01 });
     expect(friction.text(1.5)).toBe("1.50");
+    expect(friction.text(0)).toBe("0.00");
+  });
+
+  test("a strength of 0 is that of a surface that never lets through", () => {
+    const strength = knobOf(create(QuantityInfoSchema, { field: "strengthN", unit: "N", usual: 10, words: "pressed harder; 0: never" }));
+    expect([strength.text(0), strength.text(0.1)]).toEqual(["never", "0.1\u202fN"]);
   });
 });
