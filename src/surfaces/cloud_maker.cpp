@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <sstream>
 #include <utility>
@@ -44,6 +45,7 @@ class CloudMaker {
     addColours();
     addNodes();
     measure();
+    addNormals();
     return std::move(cloud_);
   }
 
@@ -56,10 +58,15 @@ class CloudMaker {
   void addBlock(std::span<const LatticePoint> points);
   void addNodes();
   void measure();
+  void addNormals();
+  std::span<const std::uint32_t> normalsOf(std::size_t block) const;
   double lookAround(const CloudSearch& search, std::size_t block);
+  static std::uint32_t unitOf(std::size_t byte);
+  static std::size_t bytesFor(std::uint64_t bits);
 
   CloudInput input_;
   std::shared_ptr<CloudPoints> cloud_;
+  HugeVector<std::uint32_t> normals_;  // by slot
 };
 
 void CloudMaker::order() {
@@ -85,8 +92,8 @@ void CloudMaker::pack() {
   std::vector<LatticePoint>& points = input_.points;
   const std::size_t runs = (points.size() + kPerBlock - 1) / kPerBlock;
   cloud_->blocks_.reserve(runs);
-  cloud_->offsets_.reserve(runs * kPerBlock);
-  cloud_->normals_.reserve(runs * kPerBlock);
+  cloud_->packed_.reserve(runs * bytesFor(kPerBlock * CloudPoints::kMostOffsetBits) + kReadBehind_bytes);
+  normals_.reserve(runs * kPerBlock);
   for (std::size_t first = 0; first < points.size(); first += kPerBlock) {
     const std::span<LatticePoint> run = std::span(points).subspan(first, std::min(kPerBlock, points.size() - first));
     std::sort(run.begin(), run.end(), [](const LatticePoint& a, const LatticePoint& b) { return a.at < b.at; });
@@ -108,26 +115,44 @@ void CloudMaker::pack() {
   }
   points = {};
   cloud_->blocks_.shrink_to_fit();
-  cloud_->offsets_.shrink_to_fit();
-  cloud_->normals_.shrink_to_fit();
+  cloud_->packed_.resize(cloud_->packed_.size() + kReadBehind_bytes, 0);
 }
 
+std::uint32_t CloudMaker::unitOf(std::size_t byte) {
+  const std::size_t unit = byte / (CloudPoints::kUnit_bits / 8);
+  if (unit > std::numeric_limits<std::uint32_t>::max()) throw Error("it has more points than a cloud can keep");
+  return static_cast<std::uint32_t>(unit);
+}
+
+// Whole units.
+std::size_t CloudMaker::bytesFor(std::uint64_t bits) {
+  constexpr std::uint64_t kUnit = CloudPoints::kUnit_bits;
+  return static_cast<std::size_t>((bits + kUnit - 1) / kUnit * (kUnit / 8));
+}
+
+// The offsets and, at first, no normals; of empty slots the offsets are 0.
 void CloudMaker::addBlock(std::span<const LatticePoint> points) {
-  CloudPoints::Block block{points[0].at, {}, static_cast<std::uint8_t>(points.size()), kUsual};
+  HugeVector<std::uint8_t>& packed = cloud_->packed_;
+  CloudPoints::Block block{points[0].at, {}, static_cast<std::uint8_t>(points.size()), kUsual, unitOf(packed.size())};
   for (const LatticePoint& point : points) {
     for (std::size_t axis = 0; axis < 3; ++axis) block.low[axis] = std::min(block.low[axis], point.at[axis]);
   }
-  const std::size_t first = kPerBlock * cloud_->blocks_.size();
-  cloud_->offsets_.resize(first + kPerBlock, std::array<std::uint16_t, 3>{});
-  cloud_->normals_.resize(first + kPerBlock, kNoNormal);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto offset = static_cast<std::uint16_t>(points[i].at[axis] - block.low[axis]);
-      cloud_->offsets_[first + i][axis] = offset;
-      block.size[axis] = std::max(block.size[axis], offset);
-    }
-    cloud_->normals_[first + i] = points[i].normal;
+  const auto offset = [&](const LatticePoint& point, std::size_t axis) {
+    return static_cast<std::uint16_t>(point.at[axis] - block.low[axis]);
+  };
+  for (const LatticePoint& point : points) {
+    for (std::size_t axis = 0; axis < 3; ++axis) block.size[axis] = std::max(block.size[axis], offset(point, axis));
   }
+  packed.resize(packed.size() + bytesFor(kPerBlock * block.offsetBits()), 0);
+  std::uint64_t bit = CloudPoints::kUnit_bits * block.begin;
+  for (const LatticePoint& point : points) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      writeBits(packed.data(), bit, block.widths()[axis], offset(point, axis));
+      bit += block.widths()[axis];
+    }
+    normals_.push_back(point.normal);
+  }
+  normals_.resize(kPerBlock * (cloud_->blocks() + 1), kNoNormal);
   cloud_->blocks_.push_back(block);
 }
 
@@ -171,16 +196,19 @@ void CloudMaker::addNodes() {
   }
 }
 
-// The spacing around the points of a block: the middle one. Normals that lack are added.
+// The spacing around the points of a block: the middle one. Normals that lack are added; empty slots have the last one,
+// so that the block needs no more bits.
 double CloudMaker::lookAround(const CloudSearch& search, std::size_t block) {
   std::array<double, kPerBlock> spacing{};
   const std::size_t count = cloud_->countIn(block);
   const std::array<CloudNeighbours, kPerBlock> nearest = search.aroundAll(block);
   for (std::size_t i = 0; i < count; ++i) {
     spacing[i] = nearest[i].spacing();
-    std::uint32_t& normal = cloud_->normals_[block * kPerBlock + i];
+    std::uint32_t& normal = normals_[block * kPerBlock + i];
     if (normal == kNoNormal) normal = packNormal(nearest[i].normal());
   }
+  const auto empty = normals_.begin() + static_cast<std::ptrdiff_t>(block * kPerBlock + count);
+  std::fill(empty, empty + static_cast<std::ptrdiff_t>(kPerBlock - count), *(empty - 1));
   const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(spacing.begin(), middle, spacing.begin() + static_cast<std::ptrdiff_t>(count));
   return *middle;
@@ -206,6 +234,38 @@ void CloudMaker::measure() {
     const auto least = std::lower_bound(kept.begin(), kept.end() - 1, spacing[block]);  // rounded up
     cloud_->blocks_[block].spacing = static_cast<std::uint8_t>(least - kept.begin());
   }
+}
+
+std::span<const std::uint32_t> CloudMaker::normalsOf(std::size_t block) const {
+  return std::span(normals_).subspan(kPerBlock * block, kPerBlock);
+}
+
+// Moves the offsets apart, so that the normals of each block follow its own.
+void CloudMaker::addNormals() {
+  HugeVector<CloudPoints::Block>& blocks = cloud_->blocks_;
+  std::vector<std::size_t> begin(blocks.size() + 1);  // bytes; first the size of the block before
+  oneapi::tbb::parallel_for(BlockRange(0, blocks.size(), kGrain), [&](const BlockRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const BlockNormals normals(normalsOf(i));
+      begin[i + 1] = bytesFor(kPerBlock * blocks[i].offsetBits() + normals.bits(kPerBlock));
+    }
+  });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  unitOf(begin.back());  // before there is memory for it
+  HugeVector<std::uint8_t> packed(begin.back() + kReadBehind_bytes);
+  std::fill(packed.end() - kReadBehind_bytes, packed.end(), std::uint8_t{0});
+  oneapi::tbb::parallel_for(BlockRange(0, blocks.size(), kGrain), [&](const BlockRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      CloudPoints::Block& block = blocks[i];
+      const std::uint64_t bits = kPerBlock * block.offsetBits();
+      std::uint8_t* to = packed.data() + begin[i];
+      const std::uint8_t* from = cloud_->packed_.data() + CloudPoints::kUnit_bits / 8 * block.begin;
+      std::fill(std::copy_n(from, bytesFor(bits), to), packed.data() + begin[i + 1], std::uint8_t{0});
+      BlockNormals(normalsOf(i)).write(normalsOf(i), to, bits);
+      block.begin = unitOf(begin[i]);
+    }
+  });
+  cloud_->packed_ = std::move(packed);
 }
 
 std::shared_ptr<const CloudPoints> makeCloud(CloudInput input) {

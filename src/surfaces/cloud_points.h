@@ -1,9 +1,12 @@
-// CloudPoints: the points of a cloud on a lattice, in blocks of neighbours with their bounds: 7.5 bytes a point, and
-// four more for normals, three for colours if there are any. A laser scanner's file is such a lattice, so nothing is
-// rounded.
+// CloudPoints: the points of a cloud on a lattice, in blocks of neighbours with their bounds, in as few bits as each
+// block needs. A laser scanner's file is such a lattice, so nothing is rounded.
+//
+// A block has its low corner and size. Its points follow each other as offsets from that corner, along each axis in as
+// many bits as the size has, and then their normals (block_normals.h).
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,7 +14,8 @@
 #include "base/huge_pages.h"
 #include "base/rgb.h"
 #include "base/vec.h"
-#include "surfaces/packed_normal.h"
+#include "surfaces/block_normals.h"
+#include "surfaces/packed_bits.h"
 
 namespace hl {
 
@@ -38,7 +42,7 @@ class CloudPoints {
   Vec3 at(std::size_t slot) const;
   std::array<std::int32_t, 3> stepsAt(std::size_t slot) const;
   /// Packed; kNoNormal only if no neighbours were there to compute it from.
-  std::uint32_t normal(std::size_t slot) const { return normals_[slot]; }
+  std::uint32_t normal(std::size_t slot) const;
   /// Whether its source has colours.
   bool hasColours() const { return !colours_.empty(); }
   Rgb colour(std::size_t slot) const { return colours_[slot]; }
@@ -66,25 +70,49 @@ class CloudPoints {
     std::array<std::int32_t, 3> low;
     std::array<std::uint16_t, 3> size;
     std::uint8_t count, spacing;  // spacing: a number of spacings_
+    std::uint32_t begin;          // in packed_, in units
+
+    std::array<unsigned, 3> widths() const {
+      const auto width = [](std::uint16_t side) { return static_cast<unsigned>(std::bit_width(side)); };
+      return {width(size[0]), width(size[1]), width(size[2])};
+    }
+    unsigned offsetBits() const {
+      const std::array<unsigned, 3> width = widths();
+      return width[0] + width[1] + width[2];
+    }
   };
+  static constexpr std::uint64_t kUnit_bits = 32;
+  static constexpr unsigned kMostOffsetBits = 3 * 16;  // of a point
+  static_assert(kMostOffsetBits <= kWidestBits);
 
   CloudLattice lattice_;
   double error_m_ = 0, usual_spacing_ = 0;
   std::size_t size_ = 0;
   HugeVector<Block> blocks_;
-  HugeVector<std::array<std::uint16_t, 3>> offsets_;  // from the block's low, by slot
-  HugeVector<std::uint32_t> normals_;                 // by slot
-  HugeVector<Rgb> colours_;                           // by slot, or none
-  std::vector<HugeVector<LatticeBox>> nodes_;         // from the blocks up
-  std::array<double, 256> spacings_{};                // m
+  HugeVector<std::uint8_t> packed_;            // offsets and normals of all slots, and kReadBehind_bytes
+  HugeVector<Rgb> colours_;                    // by slot, or none
+  std::vector<HugeVector<LatticeBox>> nodes_;  // from the blocks up
+  std::array<double, 256> spacings_{};         // m
 };
 
 // Inline, as each query reads many of them.
 
 inline std::array<std::int32_t, 3> CloudPoints::stepsAt(std::size_t slot) const {
   const Block& block = blocks_[slot / kPerBlock];
-  const std::array<std::uint16_t, 3>& offset = offsets_[slot];
-  return {block.low[0] + offset[0], block.low[1] + offset[1], block.low[2] + offset[2]};
+  const std::array<unsigned, 3> width = block.widths();
+  const unsigned all = width[0] + width[1] + width[2];
+  const std::uint64_t offsets = readBits(packed_.data(), kUnit_bits * block.begin + slot % kPerBlock * all, all);
+  const auto offset = [&](unsigned before, unsigned bits) {
+    return static_cast<std::int32_t>(lowBits(offsets >> before, bits));
+  };
+  return {block.low[0] + offset(0, width[0]), block.low[1] + offset(width[0], width[1]),
+          block.low[2] + offset(width[0] + width[1], width[2])};
+}
+
+inline std::uint32_t CloudPoints::normal(std::size_t slot) const {
+  const Block& block = blocks_[slot / kPerBlock];
+  const std::uint64_t first = kUnit_bits * block.begin + kPerBlock * block.offsetBits();
+  return BlockNormals(packed_.data(), first).read(packed_.data(), first, slot % kPerBlock);
 }
 
 inline Vec3 CloudPoints::at(std::size_t slot) const {
