@@ -14,6 +14,15 @@ constexpr double kFast = 0.1;
 // rad; a body that turns by less in a step goes straight: what the turn bends is 5e-7 of its size.
 constexpr double kStraight_rad = 1e-3;
 
+struct PartOfBody {
+  int body = 0, part = 0;
+};
+
+PlacedConvex partAtEnd(const BodyProblem& problem, const WorldState& state, const PartOfBody& of, const BodyWays& plan,
+                       EndPlaces& ends) {
+  return ends.of(problem, state, static_cast<std::size_t>(of.body), plan)[static_cast<std::size_t>(of.part)];
+}
+
 std::shared_ptr<const World> checked(std::shared_ptr<const World> world) {
   checkWorld(*world);
   return world;
@@ -45,23 +54,13 @@ BodyState BodyProblem::stateAtEnd(const WorldState& state, std::size_t body, con
   return moved;
 }
 
-PlacedConvex BodyProblem::atEnd(const WorldState& state, int body, int part, const BodyWays& plan,
-                                PlacedRoom& room) const {
-  const auto i = static_cast<std::size_t>(body), number = static_cast<std::size_t>(part);
-  if (state.bodies[i].island != 0) return placed[i][number];
-  return hl::placed(world->bodies[i].shape.parts[number], stateAtEnd(state, i, plan), room);
-}
-
 Pose BodyProblem::poseAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const {
   return poseOf(world->bodies[body], stateAtEnd(state, body, plan));
 }
 
-PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
-                                     PlacedRoom& room) const {
-  if (meeting.b != Row::kFixed) return atEnd(state, meeting.b, meeting.part_b, plan, room);
+PlacedConvex BodyProblem::primitiveAtEnd(PrimitiveId primitive, PlacedRoom& room) const {
   const SceneAt& scene = *meetings.scene();
-  return hl::placed(scene.primitive(meeting.primitive), scene.instance(meeting.primitive).poses().at(times.end_ns),
-                    room);
+  return hl::placed(scene.primitive(primitive), scene.instance(primitive).poses().at(times.end_ns), room);
 }
 
 // A plane that has two convex shapes on its sides at both ends of a straight motion has them there all the way. Beside
@@ -84,6 +83,13 @@ bool BodyProblem::isKeptApart(const Meeting& meeting, const PairAtEnd& end) cons
   const double least = by_face ? -kTouching_m : meeting.beside ? -kHeld_m : -leftOf(a, b);
   return pairAlong(a, b, normal).gap >= least && pairAlong(end.a, end.b, normal).gap >= least;
 }
+
+PairAtEnd::PairAtEnd(const BodyProblem& problem, const WorldState& state, const Meeting& meeting, const BodyWays& plan,
+                     EndPlaces& ends)
+    : a(partAtEnd(problem, state, {meeting.a, meeting.part_a}, plan, ends)),
+      b(meeting.b == Row::kFixed ? problem.primitiveAtEnd(meeting.primitive, room)
+                                 : partAtEnd(problem, state, {meeting.b, meeting.part_b}, plan, ends)),
+      along(pairAlong(a, b, meeting.manifold.normal)) {}
 
 double overlapOf(const PairAtEnd& pair, Manifold& end) {
   end.points.clear();

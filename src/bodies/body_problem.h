@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "bodies/end_places.h"
 #include "bodies/free_motion.h"
 #include "bodies/joint_set.h"
 #include "bodies/meetings.h"
@@ -40,14 +41,11 @@ struct BodyProblem {
   Vec3 sceneryVelocityAt(PrimitiveId primitive, const Vec3& point) const {
     return sceneryVelocity(meetings.scene()->instance(primitive), times, period_s, point);
   }
-  /// The other of a pair, of a body or a primitive of the scene. RT-safe.
-  PlacedConvex otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
-                          PlacedRoom& room) const;
+  /// Of the scene. RT-safe.
+  PlacedConvex primitiveAtEnd(PrimitiveId primitive, PlacedRoom& room) const;
   /// Whether the plane of a triangle of the scene has the pair on its two sides at the begin and at the end, though
   /// they met beside it: a body that slides over a mesh does not hit the edges of the triangles ahead. RT-safe.
   bool isKeptApart(const Meeting& meeting, const PairAtEnd& end) const;
-  /// A part of a body after its part of the way. RT-safe.
-  PlacedConvex atEnd(const WorldState& state, int body, int part, const BodyWays& plan, PlacedRoom& room) const;
 
   std::shared_ptr<const World> world;
   PlacedBodies placed;
@@ -67,16 +65,15 @@ struct BodyProblem {
   StepTimes times;
 };
 
-/// The shapes of a pair after their part of the way, and how they lie along the normal of the begin. RT-safe.
+/// The shapes of a pair after their part of the way, until `ends` has others, and how they lie along the normal of the
+/// begin. RT-safe.
 struct PairAtEnd {
-  PairAtEnd(const BodyProblem& problem, const WorldState& state, const Meeting& meeting, const BodyWays& plan)
-      : a(problem.atEnd(state, meeting.a, meeting.part_a, plan, room_a)),
-        b(problem.otherAtEnd(state, meeting, plan, room_b)),
-        along(pairAlong(a, b, meeting.manifold.normal)) {}
+  PairAtEnd(const BodyProblem& problem, const WorldState& state, const Meeting& meeting, const BodyWays& plan,
+            EndPlaces& ends);
   PairAtEnd(const PairAtEnd&) = delete;
   PairAtEnd& operator=(const PairAtEnd&) = delete;
 
-  PlacedRoom room_a, room_b;
+  PlacedRoom room;  // of a primitive of the scene
   const PlacedConvex a, b;
   const PairAlong along;
 };

@@ -32,7 +32,7 @@ bool isOf(const Row& row, const Meeting& meeting) { return row.a == meeting.a &&
 
 }  // namespace
 
-ContactRows::ContactRows(BodyProblem& problem) : problem_(problem) {
+ContactRows::ContactRows(BodyProblem& problem) : problem_(problem), ends_(*problem.world) {
   plan_.ways.resize(problem.bodies());
   plan_.turns.resize(problem.bodies());
   plan_.parts.assign(problem.bodies(), 1);
@@ -205,7 +205,7 @@ void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting, Accuracy acc
   const bool rough = accuracy == Accuracy::kRough;
   const Pace pace = rough ? Pace{} : paceOf(problem_, meeting);
   if (!predicted && !pace.fast && !pace.turns) return;
-  const PairAtEnd pair(problem_, state, meeting, plan_);
+  const PairAtEnd pair(problem_, state, meeting, plan_, ends_);
   if (problem_.isKeptApart(meeting, pair)) return;
   Manifold end;
   const double overlap = overlapOf(pair, end);

@@ -47,6 +47,7 @@ class ContactRows {
 
   BodyProblem& problem_;
   BodyWays plan_;  // as the velocities found would have it
+  EndPlaces ends_;
   std::vector<Touching> touching_;
   std::vector<FlatContact> flat_;  // those of them that lie in one plane
 };

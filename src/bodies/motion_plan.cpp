@@ -16,6 +16,7 @@ constexpr double kMaxMoved = 10;
 // as that place was clear.
 constexpr int kLooks = 8;
 constexpr double kShorter = 0.25;
+constexpr int kNeverClear = -1;
 
 }  // namespace
 
@@ -23,6 +24,7 @@ MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints, cons
     : problem_(problem),
       joints_(joints),
       bounds_(bounds),
+      ends_(*problem.world),
       joints_apart_(problem.joints),
       sweeps_(problem.nodes.capacity()) {
   plan_.ways.resize(problem.bodies());
@@ -32,6 +34,8 @@ MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints, cons
   overlaps_.reserve(problem.rows.capacity());
   last_plan_ = plan_;
   kept_ = plan_.parts;
+  changed_.resize(problem.bodies());
+  clear_.reserve(problem.meetings.room());
 }
 
 void MotionPlan::make(const WorldState& state, bool converged) {
@@ -143,8 +147,11 @@ void MotionPlan::goApart(double most) {
 // So do all bodies that joints connect with it, or the joints would be torn apart.
 void MotionPlan::goPart(std::size_t body, double part) {
   const std::uint32_t group = problem_.groups[body];
+  ++changes_;
   for (const std::size_t i : problem_.awake) {
-    if (problem_.groups[i] == group) plan_.parts[i] *= part;
+    if (problem_.groups[i] != group) continue;
+    plan_.parts[i] *= part;
+    changed_[i] = changes_;
   }
 }
 
@@ -166,8 +173,8 @@ void MotionPlan::limit() {
 
 // m: how far the pair would end inside each other or, of what is fast or has passed, on another side. No more than they
 // then overlap along the normal of the begin: where that is at most `enough`, it stands for both.
-double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const {
-  return depthOf(PairAtEnd(problem_, state, meeting, plan_), meeting, enough);
+double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) {
+  return depthOf(PairAtEnd(problem_, state, meeting, plan_, ends_), meeting, enough);
 }
 
 double MotionPlan::depthOf(const PairAtEnd& pair, const Meeting& meeting, double enough) const {
@@ -179,8 +186,8 @@ double MotionPlan::depthOf(const PairAtEnd& pair, const Meeting& meeting, double
 }
 
 // Farther than it began.
-bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
-  const PairAtEnd pair(problem_, state, meeting, plan_);
+bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) {
+  const PairAtEnd pair(problem_, state, meeting, plan_, ends_);
   if (problem_.isKeptApart(meeting, pair)) return false;
   const double most = std::max(leftOf(pair.a, pair.b), deepestOf(meeting.manifold) + kTouching_m);
   return depthOf(pair, meeting, most) > most;
@@ -205,13 +212,33 @@ void MotionPlan::shorten(const WorldState& state, const Meeting& meeting) {
   if (depth > 0 && depthAtEnd(state, meeting, depth) > depth) plan_.parts = kept_;  // it is in the body all the more
 }
 
+void MotionPlan::beginLooks() {
+  changes_ = 0;
+  std::fill(changed_.begin(), changed_.end(), 0);
+  clear_.assign(problem_.meetings.all().size(), kNeverClear);
+}
+
+// A look found so, and neither of the two has got another part since.
+bool MotionPlan::isClear(std::size_t number) const {
+  const Meeting& meeting = problem_.meetings.all()[number];
+  const auto unchanged = [&](int body) {
+    return body == Row::kFixed || changed_[static_cast<std::size_t>(body)] <= clear_[number];
+  };
+  return clear_[number] != kNeverClear && unchanged(meeting.a) && unchanged(meeting.b);
+}
+
 void MotionPlan::stopShort(const WorldState& state, bool converged) {
+  beginLooks();
   for (int look = 0; look < kLooks; ++look) {
     bool shortened = false;
-    for (const Meeting& meeting : problem_.meetings.all()) {
-      const Pace pace = paceOf(problem_, meeting);
-      if (converged && look == 0 && !pace.fast && !pace.turns) continue;
-      if (!passes(state, meeting)) continue;
+    for (std::size_t i = 0; i < clear_.size(); ++i) {
+      const Meeting& meeting = problem_.meetings.all()[i];
+      const Pace pace = converged && look == 0 ? paceOf(problem_, meeting) : Pace{true, true};
+      if (isClear(i) || (!pace.fast && !pace.turns)) continue;
+      if (!passes(state, meeting)) {
+        clear_[i] = changes_;
+        continue;
+      }
       shortened = true;
       if (look + 1 < kLooks || comesToward(meeting)) {
         shorten(state, meeting);

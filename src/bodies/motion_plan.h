@@ -30,16 +30,23 @@ class MotionPlan {
   void goPart(const Meeting& meeting, double part);
   void limit();
   void stopShort(const WorldState& state, bool converged);
-  double depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const;
+  double depthAtEnd(const WorldState& state, const Meeting& meeting, double enough);
   double depthOf(const PairAtEnd& pair, const Meeting& meeting, double enough) const;
-  bool passes(const WorldState& state, const Meeting& meeting) const;
+  bool passes(const WorldState& state, const Meeting& meeting);
   bool comesToward(const Meeting& meeting) const;
   void shorten(const WorldState& state, const Meeting& meeting);
+  void beginLooks();
+  bool isClear(std::size_t meeting) const;
 
   const BodyProblem& problem_;
   const JointRows& joints_;
   const MotionBounds& bounds_;
   BodyWays plan_, last_plan_;
+  EndPlaces ends_;
+  // Changes of parts are counted. Of each body the last of its own; of each meeting the last before a look found that
+  // the pair does not pass, or kNeverClear.
+  std::vector<int> changed_, clear_;
+  int changes_ = 0;
   std::vector<double> kept_;  // parts before something was shortened
   std::vector<Node> apart_;   // velocities that only push overlapping bodies apart
   std::vector<Row> overlaps_;

@@ -70,20 +70,21 @@ PlacedBodies::PlacedBodies(const World& world) {
   normals_.resize(normals);
 }
 
-// What has not moved since the last step, as what sleeps, stays as it is.
 void PlacedBodies::place(const World& world, const WorldState& state) {
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    const BodyState& body = state.bodies[i];
-    auto& [centre, turned] = poses_[i];
-    if (centre == body.centre && turned.coeffs() == body.turned.coeffs()) continue;
-    centre = body.centre;
-    turned = body.turned;
-    std::size_t number = first_part_[i];
-    for (const Convex& part : world.bodies[i].shape.parts) {
-      placed_[number] = placed(part, body, std::span(vertices_).subspan(first_vertex_[number]),
-                               std::span(normals_).subspan(first_normal_[number]));
-      ++number;
-    }
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) place(world.bodies[i], i, state.bodies[i]);
+}
+
+// What has not moved since the last time, as what sleeps, stays as it is.
+void PlacedBodies::place(const Body& body, std::size_t number, const BodyState& state) {
+  auto& [centre, turned] = poses_[number];
+  if (centre == state.centre && turned.coeffs() == state.turned.coeffs()) return;
+  centre = state.centre;
+  turned = state.turned;
+  std::size_t i = first_part_[number];
+  for (const Convex& part : body.shape.parts) {
+    placed_[i] = placed(part, state, std::span(vertices_).subspan(first_vertex_[i]),
+                        std::span(normals_).subspan(first_normal_[i]));
+    ++i;
   }
 }
 

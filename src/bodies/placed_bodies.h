@@ -1,4 +1,4 @@
-// Placed bodies: the shapes of all bodies in the world, at the begin of a step.
+// Placed bodies: the shapes of all bodies in the world.
 #pragma once
 
 #include <vector>
@@ -20,6 +20,8 @@ class PlacedBodies {
   explicit PlacedBodies(const World& world);
   /// RT-safe.
   void place(const World& world, const WorldState& state);
+  /// One of them alone. RT-safe.
+  void place(const Body& body, std::size_t number, const BodyState& state);
   /// The parts of a body. RT-safe.
   std::span<const PlacedConvex> operator[](std::size_t body) const {
     return std::span(placed_).subspan(first_part_[body], first_part_[body + 1] - first_part_[body]);
