@@ -44,26 +44,22 @@ void BlockLu::begin(std::size_t rows) {
 }
 
 void BlockLu::chooseTurns() {
-  Rows left;
-  for (std::size_t i = 0; i < rows_; ++i) left[i] = true;
+  constexpr std::size_t kEliminated = kMaxRows + 1;
+  std::array<std::size_t, kMaxRows> degrees;
+  for (std::size_t i = 0; i < rows_; ++i) degrees[i] = neighbours_[i].count();
   for (std::size_t turn = 0; turn < rows_; ++turn) {
-    std::size_t best = 0, least = kMaxRows + 1;
-    for (std::size_t i = 0; i < rows_; ++i) {
-      const std::size_t degree = left[i] ? neighbours_[i].count() : kMaxRows + 1;
-      if (degree < least) {
-        least = degree;
-        best = i;
-      }
-    }
-    left[best] = false;
+    const auto best =
+        static_cast<std::size_t>(std::min_element(degrees.begin(), degrees.begin() + rows_) - degrees.begin());
+    const std::size_t least = degrees[best];
+    degrees[best] = kEliminated;
     turn_[best] = static_cast<std::uint8_t>(turn);
     row_at_[turn] = static_cast<std::uint8_t>(best);
-    neighbours_[best] &= left;
     products_ += least * (least + 1);
     for (std::size_t i = 0; i < rows_; ++i) {
       if (!neighbours_[best][i]) continue;
       neighbours_[i] |= neighbours_[best];
       neighbours_[i][i] = neighbours_[i][best] = false;
+      degrees[i] = neighbours_[i].count();
     }
   }
 }

@@ -1,6 +1,7 @@
 // Islands: the bodies and hands that rows and joints connect, directly or by others. Each is solved on its own.
 #pragma once
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -31,7 +32,11 @@ class Islands {
 // By counting: how many items are in the islands before.
 template <typename Item, typename NodeOf>
 void Islands::gather(std::vector<Item>& items, std::vector<Item>& room, NodeOf nodeOf) {
-  if (items.empty()) return;
+  const auto island_of = [&](const Item& item) { return of(nodeOf(item)); };
+  const bool in_order = std::is_sorted(items.begin(), items.end(), [&](const Item& one, const Item& other) {
+    return island_of(one) < island_of(other);
+  });
+  if (in_order) return;
   place_.assign(parent_.size() + 1, 0);
   for (const Item& item : items) ++place_[static_cast<std::size_t>(of(nodeOf(item))) + 1];
   std::partial_sum(place_.begin(), place_.end(), place_.begin());

@@ -38,14 +38,17 @@ double lowest(std::span<const Vec3> vertices, const Vec3& direction) {
   return least;
 }
 
-// The face of `of` that parts it farthest from `other`; the normal points away from `of`.
-Axis bestFace(const PlacedConvex& of, const PlacedConvex& other) {
+// The face of `of` that parts it farthest from `other`; the normal points away from `of`. One that parts them by more
+// than `margin` ends the search.
+Axis bestFace(const PlacedConvex& of, const PlacedConvex& other, double margin) {
+  const double radii = of.shape->radius + other.shape->radius;
   Axis best;
   for (std::size_t face = 0; face < of.normals.size(); ++face) {
     const Vec3& normal = of.normals[face];
     const double separation =
         lowest(other.vertices, normal) - normal.dot(of.vertices[of.shape->faces[face].corners[0]]);
     if (separation > best.separation) best = {normal, separation, face, 0, 0};
+    if (separation - radii > margin) break;
   }
   return best;
 }
@@ -238,9 +241,11 @@ bool manifoldOfPolytopes(const PlacedConvex& a, const PlacedConvex& b, double ma
   if (a.vertices.size() == 1) return pointAndPolytope(a, b, 1, margin, out);
   if (b.vertices.size() == 1) return pointAndPolytope(b, a, -1, margin, out);
   const double radii = a.shape->radius + b.shape->radius;
-  const Axis of_b = bestFace(b, a), of_a = bestFace(a, b);
+  const Axis of_b = bestFace(b, a, margin);
+  if (of_b.separation - radii > margin) return false;
+  const Axis of_a = bestFace(a, b, margin);
+  if (of_a.separation - radii > margin) return false;
   const double of_faces = std::max(of_a.separation, of_b.separation);
-  if (of_faces - radii > margin) return false;
   const Vec3 face_normal = of_a.separation > of_b.separation ? Vec3(-of_a.normal) : of_b.normal;
   const Axis of_edges = bestEdges(a, b, face_normal, std::max(margin + radii, -of_faces));
   if (of_edges.separation - radii > margin) return false;

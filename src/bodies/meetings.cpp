@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 #include "bodies/row.h"
 
@@ -31,6 +31,7 @@ Meetings::Meetings(const World& world) : joined_(world), fixed_(world.fixed) {
   std::size_t room = 0;
   for (const Body& body : world.bodies) room += kMeetingsPerBody + kMeetingsPerPart * (body.shape.parts.size() - 1);
   meetings_.reserve(room);
+  order_.reserve(room);
   near_.reserve(NearPrimitives::kOctants * NearPrimitives::kPerOctant);
 }
 
@@ -115,10 +116,30 @@ void Meetings::withBodies(const WorldState& state, const PlacedBodies& placed, c
     const bool in_order = state.bodies[other].island != 0 || one < other;
     meet(placed, ways.bodies[one] + ways.bodies[other], in_order ? one : other, in_order ? other : one);
   });
-  std::sort(meetings_.begin() + static_cast<std::ptrdiff_t>(first), meetings_.end(),
-            [](const Meeting& x, const Meeting& y) {
-              return std::tie(x.a, x.b, x.part_a, x.part_b) < std::tie(y.a, y.b, y.part_a, y.part_b);
-            });
+  sortFrom(first);
+}
+
+// A meeting is large: each is moved once, along the cycles of the permutation.
+void Meetings::sortFrom(std::size_t first) {
+  constexpr std::size_t kPlace = 4;
+  order_.clear();
+  for (std::size_t i = first; i < meetings_.size(); ++i) {
+    const Meeting& one = meetings_[i];
+    order_.push_back({one.a, one.b, one.part_a, one.part_b, static_cast<int>(i - first)});
+  }
+  std::sort(order_.begin(), order_.end());
+  for (std::size_t begin = 0; begin < order_.size(); ++begin) {
+    if (static_cast<std::size_t>(order_[begin][kPlace]) == begin) continue;
+    const Meeting kept = meetings_[first + begin];
+    std::size_t here = begin;
+    while (true) {
+      const auto from = static_cast<std::size_t>(std::exchange(order_[here][kPlace], static_cast<int>(here)));
+      if (from == begin) break;
+      meetings_[first + here] = meetings_[first + from];
+      here = from;
+    }
+    meetings_[first + here] = kept;
+  }
 }
 
 }  // namespace hl

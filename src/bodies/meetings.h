@@ -2,6 +2,7 @@
 // fixed scene.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "bodies/joint_groups.h"
@@ -64,10 +65,13 @@ class Meetings {
   void withBodies(const WorldState& state, const PlacedBodies& placed, const SweepAndPrune& near, const MostWays& ways);
   void meet(const PlacedBodies& placed, double margin, std::uint32_t a, std::uint32_t b);
   void add(const Meeting& meeting);
+  void sortFrom(std::size_t first);
 
   std::vector<Meeting> meetings_;
   NearPrimitives nearest_;
   std::vector<PrimitiveId> near_;  // the same, in order
+  // Of a meeting: its pair of bodies and of parts, and where it is to be found.
+  std::vector<std::array<int, 5>> order_;
 
   JoinedPairs joined_;
   std::shared_ptr<const Snapshot> fixed_;
