@@ -95,6 +95,15 @@ std::string warningOf(const PrimitiveSource& source) {
   return text.str();
 }
 
+SceneSurface withIso(const SceneSurface& surface, double value) {
+  const auto& iso = dynamic_cast<const IsoSurface&>(*surface.source);
+  SceneSurface other = surface;
+  other.source =
+      std::make_shared<const IsoSurface>(iso.volume(), iso.frame(), IsoValue{value, iso.iso().solid}, iso.matter());
+  requireSurface(dynamic_cast<const IsoSurface&>(*other.source));
+  return other;
+}
+
 }  // namespace
 
 Box boundsOf(const SceneModel& scene) {
@@ -158,21 +167,24 @@ void scaleHeights(SceneModel& scene, double factor) {
 // Surfaces of one volume follow each other: the first stands for all.
 void setIsoValues(SceneModel& scene, const std::vector<double>& values) {
   std::vector<SceneSurface> surfaces;
-  std::shared_ptr<const Volume> last;
-  for (SceneSurface& surface : scene.surfaces) {
-    const auto* const iso = dynamic_cast<const IsoSurface*>(surface.source.get());
+  bool any = false;
+  for (auto one = scene.surfaces.begin(); one != scene.surfaces.end();) {
+    const auto* const iso = dynamic_cast<const IsoSurface*>(one->source.get());
     if (iso == nullptr) {
-      surfaces.push_back(std::move(surface));
-    } else if (std::exchange(last, iso->volume()) != iso->volume()) {
-      for (const double value : values) {
-        surfaces.push_back(surface);
-        surfaces.back().source = std::make_shared<const IsoSurface>(iso->volume(), iso->frame(),
-                                                                    IsoValue{value, iso->iso().solid}, iso->matter());
-        requireSurface(dynamic_cast<const IsoSurface&>(*surfaces.back().source));
-      }
+      surfaces.push_back(std::move(*one++));
+      continue;
     }
+    any = true;
+    const auto end = std::find_if(one, scene.surfaces.end(), [volume = iso->volume()](const SceneSurface& other) {
+      const auto* const next = dynamic_cast<const IsoSurface*>(other.source.get());
+      return next == nullptr || next->volume() != volume;
+    });
+    for (std::size_t i = 0; i < values.size(); ++i)
+      surfaces.push_back(
+          withIso(one[std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(i), end - one - 1)], values[i]));
+    one = end;
   }
-  if (!last) throw Error("there is no volume in it, whose surface has an iso value");
+  if (!any) throw Error("there is no volume in it, whose surface has an iso value");
   scene.surfaces = std::move(surfaces);
 }
 

@@ -173,7 +173,8 @@ TEST(Volumes, TakeOtherIsoValues) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(isoOf(i).value, 1.0 + static_cast<double>(i));
     EXPECT_EQ(scene.surfaces[i].source->shared().of, scene.surfaces[0].source->shared().of);
-    EXPECT_EQ(scene.surfaces[i].material.stiffness, 0.5);
+    EXPECT_EQ(scene.surfaces[i].name, i == 0 ? "outer" : "inner");
+    EXPECT_EQ(scene.surfaces[i].material.stiffness, i == 0 ? 0.5 : Material().stiffness);
   }
   setSolidSide(scene, SolidSide::kBelow);
   setIsoValues(scene, {4});
