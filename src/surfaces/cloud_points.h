@@ -63,6 +63,22 @@ class CloudPoints {
   double error_m() const { return error_m_; }
   std::size_t bytes() const;
 
+  /// The slots of one block, faster than by at() and normal(). Valid as long as the points are.
+  class BlockReader {
+   public:
+    BlockReader(const CloudPoints& points, std::size_t block);
+    Vec3 at(std::size_t i) const;
+    std::uint32_t normal(std::size_t i) const { return normals_.read(bytes_, normals_bit_, i); }
+
+   private:
+    std::array<std::int32_t, 3> low_;
+    std::array<unsigned, 3> width_;
+    unsigned all_;
+    const std::uint8_t* bytes_;  // of all blocks
+    std::uint64_t first_bit_, normals_bit_;
+    BlockNormals normals_;
+  };
+
  private:
   friend class CloudMaker;
 
@@ -118,6 +134,23 @@ inline std::uint32_t CloudPoints::normal(std::size_t slot) const {
 inline Vec3 CloudPoints::at(std::size_t slot) const {
   const std::array<std::int32_t, 3> steps = stepsAt(slot);
   return {static_cast<double>(steps[0]), static_cast<double>(steps[1]), static_cast<double>(steps[2])};
+}
+
+inline CloudPoints::BlockReader::BlockReader(const CloudPoints& points, std::size_t block)
+    : low_(points.blocks_[block].low),
+      width_(points.blocks_[block].widths()),
+      all_(width_[0] + width_[1] + width_[2]),
+      bytes_(points.packed_.data()),
+      first_bit_(kUnit_bits * points.blocks_[block].begin),
+      normals_bit_(first_bit_ + kPerBlock * all_),
+      normals_(bytes_, normals_bit_) {}
+
+inline Vec3 CloudPoints::BlockReader::at(std::size_t i) const {
+  const std::uint64_t offsets = readBits(bytes_, first_bit_ + i * all_, all_);
+  const auto along = [&](std::size_t axis, unsigned before) {
+    return static_cast<double>(low_[axis] + static_cast<std::int32_t>(lowBits(offsets >> before, width_[axis])));
+  };
+  return {along(0, 0), along(1, width_[0]), along(2, width_[0] + width_[1])};
 }
 
 inline LatticeBox CloudPoints::box(int level, std::size_t number) const {

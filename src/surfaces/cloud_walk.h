@@ -78,19 +78,21 @@ class CloudWalk {
   template <typename Visit>
   void look(std::size_t block, const Visit& visit) {
     const double reach = cloud_.reachOf(block);
-    const std::size_t first = block * CloudPoints::kPerBlock;
-    for (std::size_t slot = first; slot < first + points_.countIn(block); ++slot) {
+    const CloudPoints::BlockReader reader(points_, block);
+    for (std::size_t n = 0; n < points_.countIn(block); ++n) {
       ++looked_;
-      if (!boxes_.isNear(points_.at(slot), reach)) continue;
-      if (cloud_.surfels() && !meetsDisc(slot, reach)) continue;
+      const Vec3 at = reader.at(n);
+      if (!boxes_.isNear(at, reach)) continue;
+      if (cloud_.surfels() && !meetsDisc(at, cloud_.normalOf(reader.normal(n)), reach)) continue;
+      const std::size_t slot = block * CloudPoints::kPerBlock + n;
       for (std::size_t i = 0; i < cloud_.perPoint(); ++i) visit(static_cast<ElementId>(slot * cloud_.perPoint() + i));
     }
   }
 
-  // Metres, from the middle of the surfel.
-  bool meetsDisc(std::size_t slot, double reach) const {
+  // Metres, from the middle of the surfel. `at`: grid coordinates.
+  bool meetsDisc(const Vec3& at, const Vec3& normal, double reach) const {
     const Mat3& axes = cloud_.frame().axes;
-    const Vec3 normal = cloud_.normalAt(slot), from = axes * (ball_.first() - points_.at(slot));
+    const Vec3 from = axes * (ball_.first() - at);
     const Vec3 way = axes * (ball_.last() - ball_.first());
     const double rounding = kRounding * (from.norm() + way.norm() + reach) + 2 * cloud_.rounding();
     const double radius = (1 + kRounding) * ball_.radius() + rounding;

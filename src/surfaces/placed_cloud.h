@@ -44,7 +44,9 @@ class PlacedCloud {
   /// Of a point three times itself.
   std::array<Vec3, 3> corners(ElementId id) const;
   Vec3 pointAt(std::size_t slot) const;
-  Vec3 normalAt(std::size_t slot) const { return (for_normals_ * unpackNormal(points_->normal(slot))).normalized(); }
+  Vec3 normalAt(std::size_t slot) const { return normalOf(points_->normal(slot)); }
+  /// Of a normal as the points have it.
+  Vec3 normalOf(std::uint32_t packed) const { return (for_normals_ * unpackNormal(packed)).normalized(); }
   /// A corner of a surfel that is so many times larger.
   Vec3 corner(std::size_t slot, std::size_t number, double larger = 1) const;
   /// Whether corners are seen clockwise from where the normal points to.

@@ -137,9 +137,12 @@ TEST(CloudPoints, PlacesAndNormalsComeBackFromBlocksOfAllSizes) {
     for (std::size_t block = 0; block < points->blocks(); ++block) {
       const LatticeBox box = points->box(0, block);
       LatticeBox around{box.high, box.low};
+      const CloudPoints::BlockReader reader(*points, block);
       for (std::size_t i = 0; i < points->countIn(block); ++i) {
         const std::size_t slot = CloudPoints::kPerBlock * block + i;
         const Steps at = points->stepsAt(slot);
+        ASSERT_EQ(reader.at(i), Vec3(at[0], at[1], at[2]));
+        ASSERT_EQ(reader.normal(i), points->normal(slot));
         const auto found = given.find(at);
         ASSERT_NE(found, given.end());
         ASSERT_EQ(points->normal(slot), found->second == kNoNormal ? points->normal(slot) : found->second);
