@@ -5,11 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "bodies/end_places.h"
 #include "bodies/free_motion.h"
 #include "bodies/joint_set.h"
 #include "bodies/meetings.h"
-#include "bodies/pair_along.h"
 #include "bodies/placed_bodies.h"
 #include "bodies/row.h"
 #include "bodies/scenery.h"
@@ -23,8 +21,6 @@ struct BodyWays {
   std::vector<Vec3> turns;    ///< rad/s, while they move
   std::vector<double> parts;  ///< 0..1 of both, that nothing is in the way of
 };
-
-struct PairAtEnd;
 
 /// Made once for a world; its lists have room for any step. By one thread at a time.
 struct BodyProblem {
@@ -41,11 +37,6 @@ struct BodyProblem {
   Vec3 sceneryVelocityAt(PrimitiveId primitive, const Vec3& point) const {
     return sceneryVelocity(meetings.scene()->instance(primitive), times, period_s, point);
   }
-  /// Of the scene. RT-safe.
-  PlacedConvex primitiveAtEnd(PrimitiveId primitive, PlacedRoom& room) const;
-  /// Whether the plane of a triangle of the scene has the pair on its two sides at the begin and at the end, though
-  /// they met beside it: a body that slides over a mesh does not hit the edges of the triangles ahead. RT-safe.
-  bool isKeptApart(const Meeting& meeting, const PairAtEnd& end) const;
 
   std::shared_ptr<const World> world;
   PlacedBodies placed;
@@ -64,23 +55,6 @@ struct BodyProblem {
   std::uint64_t step = 0;  ///< its number
   StepTimes times;
 };
-
-/// The shapes of a pair after their part of the way, until `ends` has others, and how they lie along the normal of the
-/// begin. RT-safe.
-struct PairAtEnd {
-  PairAtEnd(const BodyProblem& problem, const WorldState& state, const Meeting& meeting, const BodyWays& plan,
-            EndPlaces& ends);
-  PairAtEnd(const PairAtEnd&) = delete;
-  PairAtEnd& operator=(const PairAtEnd&) = delete;
-
-  PlacedRoom room;  // of a primitive of the scene
-  const PlacedConvex a, b;
-  const PairAlong along;
-};
-
-/// m, >= 0: how far the pair would overlap then. `end`: where; without points if it is apart, or has passed through
-/// along the normal of the begin. RT-safe.
-double overlapOf(const PairAtEnd& pair, Manifold& end);
 
 /// How a pair moves: whether rows made for its begin may miss its end.
 struct Pace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "bodies/pair_at_end.h"
 #include "bodies/row_solver.h"
 
 namespace hl {
@@ -206,7 +207,7 @@ void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting, Accuracy acc
   const Pace pace = rough ? Pace{} : paceOf(problem_, meeting);
   if (!predicted && !pace.fast && !pace.turns) return;
   const PairAtEnd pair(problem_, state, meeting, plan_, ends_);
-  if (problem_.isKeptApart(meeting, pair)) return;
+  if (isKeptApart(problem_, meeting, pair)) return;
   Manifold end;
   const double overlap = overlapOf(pair, end);
   // What was beside the triangle comes over it within the step.

@@ -5,6 +5,7 @@
 
 #include "bodies/body_problem.h"
 #include "bodies/contact_hull.h"
+#include "bodies/end_places.h"
 
 namespace hl {
 

@@ -188,7 +188,7 @@ double MotionPlan::depthOf(const PairAtEnd& pair, const Meeting& meeting, double
 // Farther than it began.
 bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) {
   const PairAtEnd pair(problem_, state, meeting, plan_, ends_);
-  if (problem_.isKeptApart(meeting, pair)) return false;
+  if (isKeptApart(problem_, meeting, pair)) return false;
   const double most = std::max(leftOf(pair.a, pair.b), deepestOf(meeting.manifold) + kTouching_m);
   return depthOf(pair, meeting, most) > most;
 }

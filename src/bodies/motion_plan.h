@@ -3,7 +3,9 @@
 // velocity stays, so that the next step has the impact.
 #pragma once
 
+#include "bodies/end_places.h"
 #include "bodies/motion_bounds.h"
+#include "bodies/pair_at_end.h"
 #include "bodies/row_solver.h"
 
 namespace hl {
