@@ -237,7 +237,8 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
                       kUpload_bytes / 1'000'000))
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
-  addPageFolderOption(command, options.page_folder);
+  command.add_option("--page-dir", options.page_folder, "folder of the built page, or of pages of your own")
+      ->check(CLI::ExistingDirectory);
   command.add_option("--duration", options.duration_s, "end by itself after this many seconds")
       ->check(within(kMinNumber, kMaxNumber));
   addBlackBoxOption(command, options.recorder);

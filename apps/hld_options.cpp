@@ -25,7 +25,9 @@ void addNetworkOptions(CLI::App& app, HldOptions& options) {
   app.add_option("--tls-key", server.tls.key, "PEM file: the certificate's key")->group("Network");
   app.add_option("--token-file", options.token_file, "file with the token that clients must show; read again on SIGHUP")
       ->group("Network");
-  addPageFolderOption(app, server.page_folder)->group("Network");
+  app.add_option("--page-dir", server.page_folder, "folder of the built page, or of pages of your own")
+      ->check(CLI::ExistingDirectory)
+      ->group("Network");
 }
 
 void addHandOptions(CLI::App& app, HldOptions& options) {

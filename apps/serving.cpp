@@ -85,15 +85,6 @@ void addBlackBoxOption(CLI::App& command, RecorderSettings& recorder) {
       ->group("Force");
 }
 
-CLI::Option* addPageFolderOption(CLI::App& command, std::string& folder) {
-  const auto fault = [](const std::string& given) {
-    std::error_code error;
-    if (std::filesystem::exists(given + "/index.html", error)) return std::string();
-    return "'" + given + "' has no index.html: the page is built by scripts/build";
-  };
-  return command.add_option("--page-dir", folder, "folder of the built page")->check(CLI::Validator(fault, "DIR"));
-}
-
 std::string defaultPageFolder() {
   constexpr const char* kBuilt = "viewer/dist";
   constexpr const char* kInstalled = "share/hl/viewer";

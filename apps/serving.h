@@ -25,8 +25,6 @@ int waitForSignal(const sigset_t& signals, double longest_s = 0);
 
 /// The built page: viewer/dist (as built) or share/hl/viewer (as installed) in a folder above the program.
 std::string defaultPageFolder();
-/// --page-dir: a folder with the built page in it.
-CLI::Option* addPageFolderOption(CLI::App& command, std::string& folder);
 
 /// Where black boxes are kept unless set otherwise; empty where there is no place for them.
 std::string defaultBlackBoxFolder();

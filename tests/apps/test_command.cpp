@@ -183,7 +183,6 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
         "trace teapot --deflection 1e-5 --path " + path + " --out " + out,
         std::string("info teapot --deflection 1e-5"),
         std::string("touch --page-dir /nonexistent"),
-        std::string("touch --page-dir /proc"),
         std::string("touch --device theremin"),
         std::string("touch --device sim:abacus"),
         std::string("touch --device replay:/nonexistent --no-open --port 0"),

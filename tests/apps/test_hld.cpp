@@ -238,7 +238,6 @@ TEST(Hld, BadInputIsOneLineAndExitCodeTwo) {
                                                        {"--limit-memory-bytes", "1"},
                                                        {"--limit-memory-bytes", "-5"},
                                                        {"--page-dir", "/nonexistent"},
-                                                       {"--page-dir", "/proc"},
                                                        {"--black-box", "/proc/none"},
                                                        {"--tool-mass", "100"},
                                                        {"--ros", "9lab"},
