@@ -194,7 +194,10 @@ class Touch:
             self._is_in_frame = False
         self.make_current()
         try:
-            calls.hlFinish() if wait else calls.hlFlush()
+            if wait:
+                calls.hlFinish()
+            else:
+                calls.hlFlush()
         except InvalidOperationError:  # hlBegin or hlNewObject without its end: it must not stay open in the next frame
             self._cancel_frame()
             raise

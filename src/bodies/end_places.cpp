@@ -15,7 +15,8 @@ std::span<const PlacedConvex> EndPlaces::of(const BodyProblem& problem, const Wo
                                             const BodyWays& plan) {
   const BodyState& begin = state.bodies[body];
   if (begin.island != 0) return problem.placed[body];
-  const Course course{begin.centre, plan.ways[body], plan.turns[body], begin.turned, plan.parts[body]};
+  const Course course{begin.centre, plan.ways[body],  plan.turns[body],
+                      begin.turned, plan.parts[body], problem.period_s};
   if (!(course == courses_[body])) {
     courses_[body] = course;
     placed_.place(problem.world->bodies[body], body, problem.stateAtEnd(state, body, plan));

@@ -21,15 +21,15 @@ class EndPlaces {
                                    const BodyWays& plan);
 
  private:
-  /// From where a body goes, and how.
+  /// From where a body goes, how, and for how long it turns.
   struct Course {
     Vec3 centre, way, turn;
     Eigen::Quaterniond turned;
-    double part = 0;
+    double part = 0, period_s = 0;
 
     bool operator==(const Course& other) const {
       return centre == other.centre && way == other.way && turn == other.turn &&
-             turned.coeffs() == other.turned.coeffs() && part == other.part;
+             turned.coeffs() == other.turned.coeffs() && part == other.part && period_s == other.period_s;
     }
   };
 

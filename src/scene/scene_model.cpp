@@ -164,7 +164,7 @@ void scaleHeights(SceneModel& scene, double factor) {
     surface.source = surface.source->placed(Vec3(1, factor, 1).asDiagonal(), Vec3::Zero());
 }
 
-// Surfaces of one volume follow each other: the first stands for all.
+// Surfaces of one volume follow each other.
 void setIsoValues(SceneModel& scene, const std::vector<double>& values) {
   std::vector<SceneSurface> surfaces;
   bool any = false;

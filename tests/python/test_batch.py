@@ -219,7 +219,8 @@ class Volumes(unittest.TestCase):
         for _ in range(100_000):
             deep = {"shell": deep}
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(implicit=deep))
-        for wrong in ({}, {"expression": {"ball": {}}}, {"expression": {"sphere": {"radius": -1}}}, "sphere", 3, {1}, {"a": object()}):
+        for wrong in ({}, {"expression": {"ball": {}}}, {"expression": {"sphere": {"radius": -1}}}, "sphere", 3, {1},
+                      {"a": object()}):
             self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(implicit=wrong))
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", implicit={}))
 
