@@ -3,6 +3,7 @@
 
 import { mkdirSync } from "node:fs";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { chromium, type Browser, type Page } from "playwright-core";
 import { expect } from "vitest";
 
@@ -14,9 +15,12 @@ export const kSizes = [
 /** The usual window. Its canvas has a quarter of the pixels, as software GL takes its time for each; pictures have all. */
 export const kWindow = { viewport: kSizes[0], deviceScaleFactor: process.env.HL_SCREENSHOTS ? 1 : 0.5 };
 
+/** Software GL takes all processors, which a servo without real-time priority has to share: HL_CHROMIUM comes last. */
+const kYieldingChromium = fileURLToPath(new URL("yielding_chromium.sh", import.meta.url));
+
 export function launch(): Promise<Browser> {
   return chromium.launch({
-    executablePath: process.env.HL_CHROMIUM ?? "/usr/bin/chromium",
+    executablePath: kYieldingChromium,
     headless: true,
     args: [
       "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
@@ -119,13 +123,17 @@ export async function pressModel(page: Page, at: { x: number; y: number }): Prom
   await page.mouse.down();
 }
 
-/** Waits until something is touched with such a force; else says what was. */
+/** Waits until something is touched with such a force; else, or in a fault, says what was. */
 export async function untilTouched(page: Page, least_N = 0): Promise<void> {
-  const touched = (least: number) => window.__hl.contacts > 0 && window.__hl.peak(0.2).force_N > least;
-  await page.waitForFunction(touched, least_N).catch(async (error: unknown) => {
+  const touchedOrFault = (least: number) => {
+    const { contacts, fault, peak } = window.__hl;
+    return fault !== "" || (contacts > 0 && peak(0.2).force_N > least);
+  };
+  await page.waitForFunction(touchedOrFault, least_N).catch(async (error: unknown) => {
     const state = await page.evaluate(() => JSON.stringify(window.__hl));
     throw new Error(`${String(error)}\n${state}`);
   });
+  expect(await page.evaluate(() => window.__hl.fault)).toBe("");
 }
 
 /** No two panels overlap, none leaves the window, none has to scroll or cuts off its text. */

@@ -1,7 +1,7 @@
 // The iso value of a volume changes while its surface is touched: the slider of the page against a real server.
 
 import type { Browser, Page } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { kWindow, launch, listen, pressModel, screenshot, states, untilTouched, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
@@ -24,6 +24,8 @@ describe.skipIf(!kProgram)("the slider of a volume", () => {
     await browser?.close();
     touch?.process.kill("SIGKILL");
   });
+
+  afterEach(() => page.mouse.up());
 
   const layout = () => page.evaluate(() => window.__hl.layout!);
   const setIso = async (value: number) => {
@@ -54,7 +56,6 @@ describe.skipIf(!kProgram)("the slider of a volume", () => {
     await untilTouched(page);
     const again = await page.evaluate(() => window.__hl.proxy!);
     expect(Math.hypot(again.x - onSkin.x, again.y - onSkin.y, again.z - onSkin.z)).toBeLessThan(0.02);
-    await page.mouse.up();
     expect(await page.evaluate(() => window.__hl.safety)).toBe("ON");
   });
 

@@ -64,6 +64,8 @@ export interface DebugState {
   /** Index of the layout's snap that holds the proxy. */
   readonly snap: number | undefined;
   readonly safety: string;
+  /** Why the force is off, in the server's words; empty where nothing is wrong. */
+  readonly fault: string;
   readonly exploring: boolean;
   /** What the user has set over the scene's surfaces. */
   readonly surfaces: SurfaceSettings;
@@ -125,6 +127,7 @@ function makeDebugState(sources: DebugSources): DebugState {
     get contacts() { return sources.state()?.contacts.length ?? 0; },
     get snap() { return sources.scene().marks.held; },
     get safety() { return SafetyState[sources.state()?.safety ?? SafetyState.OFF] ?? "OFF"; },
+    get fault() { return sources.state()?.fault ?? ""; },
     get surfaces() { return settingsOf(sources.state()?.surfaces); },
     get ledger() { return LedgerMode[sources.state()?.ledger?.mode ?? LedgerMode.TANK]; },
     get exploring() { return sources.state()?.exploring ?? false; },
