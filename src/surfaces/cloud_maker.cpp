@@ -143,12 +143,13 @@ void CloudMaker::addBlock(std::span<const LatticePoint> points) {
   for (const LatticePoint& point : points) {
     for (std::size_t axis = 0; axis < 3; ++axis) block.size[axis] = std::max(block.size[axis], offset(point, axis));
   }
-  packed.resize(packed.size() + bytesFor(kPerBlock * block.offsetBits()), 0);
-  std::uint64_t bit = CloudPoints::kUnit_bits * block.begin;
+  const CloudPoints::Offsets offsets(block);
+  packed.resize(packed.size() + bytesFor(offsets.bits()), 0);
+  std::uint64_t bit = offsets.first_bit;
   for (const LatticePoint& point : points) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      writeBits(packed.data(), bit, block.widths()[axis], offset(point, axis));
-      bit += block.widths()[axis];
+      writeBits(packed.data(), bit, offsets.width[axis], offset(point, axis));
+      bit += offsets.width[axis];
     }
     normals_.push_back(point.normal);
   }
@@ -247,7 +248,7 @@ void CloudMaker::addNormals() {
   oneapi::tbb::parallel_for(BlockRange(0, blocks.size(), kGrain), [&](const BlockRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const BlockNormals normals(normalsOf(i));
-      begin[i + 1] = bytesFor(kPerBlock * blocks[i].offsetBits() + normals.bits(kPerBlock));
+      begin[i + 1] = bytesFor(CloudPoints::Offsets(blocks[i]).bits() + normals.bits(kPerBlock));
     }
   });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -257,7 +258,7 @@ void CloudMaker::addNormals() {
   oneapi::tbb::parallel_for(BlockRange(0, blocks.size(), kGrain), [&](const BlockRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       CloudPoints::Block& block = blocks[i];
-      const std::uint64_t bits = kPerBlock * block.offsetBits();
+      const std::uint64_t bits = CloudPoints::Offsets(block).bits();
       std::uint8_t* to = packed.data() + begin[i];
       const std::uint8_t* from = cloud_->packed_.data() + CloudPoints::kUnit_bits / 8 * block.begin;
       std::fill(std::copy_n(from, bytesFor(bits), to), packed.data() + begin[i + 1], std::uint8_t{0});

@@ -39,7 +39,7 @@ class CloudPoints {
   std::size_t blocks() const { return blocks_.size(); }
   std::size_t size() const { return size_; }
   std::size_t countIn(std::size_t block) const { return blocks_[block].count; }
-  Vec3 at(std::size_t slot) const;
+  Vec3 at(std::size_t slot) const { return inSteps(stepsAt(slot)); }
   std::array<std::int32_t, 3> stepsAt(std::size_t slot) const;
   /// Packed; kNoNormal only if no neighbours were there to compute it from.
   std::uint32_t normal(std::size_t slot) const;
@@ -63,21 +63,7 @@ class CloudPoints {
   double error_m() const { return error_m_; }
   std::size_t bytes() const;
 
-  /// The slots of one block, faster than by at() and normal(). Valid as long as the points are.
-  class BlockReader {
-   public:
-    BlockReader(const CloudPoints& points, std::size_t block);
-    Vec3 at(std::size_t i) const;
-    std::uint32_t normal(std::size_t i) const { return normals_.read(bytes_, normals_bit_, i); }
-
-   private:
-    std::array<std::int32_t, 3> low_;
-    std::array<unsigned, 3> width_;
-    unsigned all_;
-    const std::uint8_t* bytes_;  // of all blocks
-    std::uint64_t first_bit_, normals_bit_;
-    BlockNormals normals_;
-  };
+  class BlockReader;  // of one block, below
 
  private:
   friend class CloudMaker;
@@ -87,19 +73,28 @@ class CloudPoints {
     std::array<std::uint16_t, 3> size;
     std::uint8_t count, spacing;  // spacing: a number of spacings_
     std::uint32_t begin;          // in packed_, in units
-
-    std::array<unsigned, 3> widths() const {
-      const auto width = [](std::uint16_t side) { return static_cast<unsigned>(std::bit_width(side)); };
-      return {width(size[0]), width(size[1]), width(size[2])};
-    }
-    unsigned offsetBits() const {
-      const std::array<unsigned, 3> width = widths();
-      return width[0] + width[1] + width[2];
-    }
   };
   static constexpr std::uint64_t kUnit_bits = 32;
   static constexpr unsigned kMostOffsetBits = 3 * 16;  // of a point
   static_assert(kMostOffsetBits <= kWidestBits);
+
+  /// The offsets of a block's slots: where they are, and what they are added to.
+  struct Offsets {
+    explicit Offsets(const Block& block);
+    /// `bytes`: of all blocks.
+    std::array<std::int32_t, 3> stepsAt(const std::uint8_t* bytes, std::size_t i) const;
+    std::uint64_t bits() const { return kPerBlock * all; }
+    std::uint64_t endBit() const { return first_bit + bits(); }
+
+    std::array<std::int32_t, 3> low;
+    std::array<unsigned, 3> width;  // bits along each axis
+    unsigned all;                   // bits of a slot
+    std::uint64_t first_bit;
+  };
+
+  static Vec3 inSteps(const std::array<std::int32_t, 3>& steps) {
+    return {static_cast<double>(steps[0]), static_cast<double>(steps[1]), static_cast<double>(steps[2])};
+  }
 
   CloudLattice lattice_;
   double error_m_ = 0, usual_spacing_ = 0;
@@ -111,47 +106,44 @@ class CloudPoints {
   std::array<double, 256> spacings_{};         // m
 };
 
+/// The slots of one block, faster than by at() and normal(). Valid as long as the points are.
+class CloudPoints::BlockReader {
+ public:
+  BlockReader(const CloudPoints& points, std::size_t block);
+  Vec3 at(std::size_t i) const { return inSteps(offsets_.stepsAt(bytes_, i)); }
+  std::uint32_t normal(std::size_t i) const { return normals_.read(bytes_, offsets_.endBit(), i); }
+
+ private:
+  const Offsets offsets_;
+  const std::uint8_t* const bytes_;  // of all blocks
+  const BlockNormals normals_;
+};
+
 // Inline, as each query reads many of them.
 
-inline std::array<std::int32_t, 3> CloudPoints::stepsAt(std::size_t slot) const {
-  const Block& block = blocks_[slot / kPerBlock];
-  const std::array<unsigned, 3> width = block.widths();
-  const unsigned all = width[0] + width[1] + width[2];
-  const std::uint64_t offsets = readBits(packed_.data(), kUnit_bits * block.begin + slot % kPerBlock * all, all);
-  const auto offset = [&](unsigned before, unsigned bits) {
-    return static_cast<std::int32_t>(lowBits(offsets >> before, bits));
+inline CloudPoints::Offsets::Offsets(const Block& block) : low(block.low), first_bit(kUnit_bits * block.begin) {
+  for (std::size_t axis = 0; axis < 3; ++axis) width[axis] = static_cast<unsigned>(std::bit_width(block.size[axis]));
+  all = width[0] + width[1] + width[2];
+}
+
+inline std::array<std::int32_t, 3> CloudPoints::Offsets::stepsAt(const std::uint8_t* bytes, std::size_t i) const {
+  const std::uint64_t offsets = readBits(bytes, first_bit + i * all, all);
+  const auto along = [&](std::size_t axis, unsigned before) {
+    return low[axis] + static_cast<std::int32_t>(lowBits(offsets >> before, width[axis]));
   };
-  return {block.low[0] + offset(0, width[0]), block.low[1] + offset(width[0], width[1]),
-          block.low[2] + offset(width[0] + width[1], width[2])};
+  return {along(0, 0), along(1, width[0]), along(2, width[0] + width[1])};
+}
+
+inline std::array<std::int32_t, 3> CloudPoints::stepsAt(std::size_t slot) const {
+  return Offsets(blocks_[slot / kPerBlock]).stepsAt(packed_.data(), slot % kPerBlock);
 }
 
 inline std::uint32_t CloudPoints::normal(std::size_t slot) const {
-  const Block& block = blocks_[slot / kPerBlock];
-  const std::uint64_t first = kUnit_bits * block.begin + kPerBlock * block.offsetBits();
-  return BlockNormals(packed_.data(), first).read(packed_.data(), first, slot % kPerBlock);
-}
-
-inline Vec3 CloudPoints::at(std::size_t slot) const {
-  const std::array<std::int32_t, 3> steps = stepsAt(slot);
-  return {static_cast<double>(steps[0]), static_cast<double>(steps[1]), static_cast<double>(steps[2])};
+  return BlockReader(*this, slot / kPerBlock).normal(slot % kPerBlock);
 }
 
 inline CloudPoints::BlockReader::BlockReader(const CloudPoints& points, std::size_t block)
-    : low_(points.blocks_[block].low),
-      width_(points.blocks_[block].widths()),
-      all_(width_[0] + width_[1] + width_[2]),
-      bytes_(points.packed_.data()),
-      first_bit_(kUnit_bits * points.blocks_[block].begin),
-      normals_bit_(first_bit_ + kPerBlock * all_),
-      normals_(bytes_, normals_bit_) {}
-
-inline Vec3 CloudPoints::BlockReader::at(std::size_t i) const {
-  const std::uint64_t offsets = readBits(bytes_, first_bit_ + i * all_, all_);
-  const auto along = [&](std::size_t axis, unsigned before) {
-    return static_cast<double>(low_[axis] + static_cast<std::int32_t>(lowBits(offsets >> before, width_[axis])));
-  };
-  return {along(0, 0), along(1, width_[0]), along(2, width_[0] + width_[1])};
-}
+    : offsets_(points.blocks_[block]), bytes_(points.packed_.data()), normals_(bytes_, offsets_.endBit()) {}
 
 inline LatticeBox CloudPoints::box(int level, std::size_t number) const {
   if (level > 0) return nodes_[static_cast<std::size_t>(level) - 1][number];
