@@ -371,8 +371,9 @@ class Touch:
         while it is placed as it was. The definition draws once, and places nothing.
 
         shape, by which it meets other bodies: "hull", "box", "ball", "capsule", "cylinder" or "parts", the hulls of the
-        pieces of its mesh. fixed: it moves only with frames, and pushes. parameters: mass (kg) or density (kg/m^3); static_friction, dynamic_friction, restitution
-        (0..1); velocity (m/s) and spin (rad/s) with which it starts, (3,).
+        pieces of its mesh. fixed: it moves only with frames, and pushes. parameters: mass (kg) or density (kg/m^3);
+        static_friction, dynamic_friction, restitution (0..1); velocity (m/s) and spin (rad/s) with which it starts,
+        (3,).
         """
         self.make_current()
         _check_names(parameters, _BODY_NUMBERS, _BODY_VECTORS, "a body")

@@ -1,18 +1,8 @@
 #include "client/object_table.h"
 
-#include <algorithm>
-#include <limits>
 #include <vector>
 
-#include "client/fault.h"
-
 namespace hl::client {
-
-HLuint ObjectTable::generate() {
-  if (highest_ == std::numeric_limits<HLuint>::max())
-    throw Fault(HL_OUT_OF_MEMORY, "all numbers of objects are in use");
-  return ++highest_;
-}
 
 bool ObjectTable::remove(HLuint object) {
   if (!isDefined(object)) return false;
@@ -23,7 +13,6 @@ bool ObjectTable::remove(HLuint object) {
 void ObjectTable::define(HLuint object, const ItemList& items) {
   changes_.remember(objects_, object);
   objects_[object] = {items.uses(), items.vertices(), items.volumes()};
-  highest_ = std::max(highest_, object);
 }
 
 bool ObjectTable::reaches(HLuint from, HLuint to) const {

@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "client/free_numbers.h"
 #include "client/item_list.h"
 #include "client/table_changes.h"
 
@@ -17,8 +18,8 @@ namespace hl::client {
 
 class ObjectTable {
  public:
-  /// A number > 0 that was never returned or defined before.
-  HLuint generate();
+  /// A number > 0 that was never returned before and is not in use.
+  HLuint generate() { return numbers_.next(objects_, "objects"); }
   bool isDefined(HLuint object) const { return objects_.contains(object); }
   /// Defines or redefines `object`.
   void define(HLuint object, const ItemList& items);
@@ -44,7 +45,7 @@ class ObjectTable {
   };
   std::map<HLuint, Known> objects_;
   TableChanges<Known> changes_;
-  HLuint highest_ = 0;
+  FreeNumbers numbers_;
 };
 
 }  // namespace hl::client

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "client/fault.h"
 
@@ -18,12 +17,6 @@ char quantized(HLfloat value) {
 
 }  // namespace
 
-HLuint TextureTable::generate() {
-  if (highest_ == std::numeric_limits<HLuint>::max())
-    throw Fault(HL_OUT_OF_MEMORY, "all numbers of textures are in use");
-  return ++highest_;
-}
-
 void TextureTable::undoChanges() {
   changes_.undo(textures_);
   changed_.clear();
@@ -34,7 +27,6 @@ void TextureTable::bind(HLuint texture) {
   if (texture == 0) return;
   if (!contains(texture)) changes_.remember(textures_, texture);
   textures_.try_emplace(texture);
-  highest_ = std::max(highest_, texture);
 }
 
 void TextureTable::remove(HLuint texture) {

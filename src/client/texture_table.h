@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "client/free_numbers.h"
 #include "client/table_changes.h"
 
 namespace hl::client {
@@ -24,8 +25,8 @@ struct Texture {
 
 class TextureTable {
  public:
-  /// A number > 0 that was never returned or bound before.
-  HLuint generate();
+  /// A number > 0 that was never returned before and is not in use.
+  HLuint generate() { return numbers_.next(textures_, "textures"); }
   /// Makes the texture if there is none of this number; 0 is none.
   void bind(HLuint texture);
   bool contains(HLuint texture) const { return textures_.contains(texture); }
@@ -53,7 +54,7 @@ class TextureTable {
   std::map<HLuint, Texture> textures_;
   TableChanges<Texture> changes_;
   std::set<HLuint> removed_before_;
-  HLuint highest_ = 0;
+  FreeNumbers numbers_;
 };
 
 /// The texels of an image in the application's memory (HL_LUMINANCE; null: zeros). Throws Fault HL_INVALID_ENUM for

@@ -1,4 +1,5 @@
 // Objects and textures: definitions, calls, deletion.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -23,10 +24,21 @@ TEST_F(CallsTest, GeneratedNumbersAreNew) {
   define(3);
   HLuint objects[2];
   hlGenObjects(2, objects);
-  EXPECT_GT(objects[0], 3U);
+  EXPECT_GT(objects[0], 0U);
   EXPECT_NE(objects[0], objects[1]);
   EXPECT_EQ(hlIsObject(objects[0]), HL_FALSE);
   hlGenObjects(-1, objects), expectError(HL_INVALID_VALUE);
+}
+
+TEST_F(CallsTest, GeneratedNumbersPassThoseThatAreChosen) {
+  for (const HLuint chosen : {2U, 3U, 0xffffffffU}) define(chosen);
+  HLuint objects[3];
+  hlGenObjects(3, objects);
+  EXPECT_THAT(objects, testing::ElementsAre(1U, 4U, 5U));
+  hlBindTexture(HL_TEXTURE_2D, 0xffffffffU);
+  HLuint texture = 0;
+  hlGenTextures(1, &texture);
+  EXPECT_EQ(texture, 1U);
 }
 
 TEST_F(CallsTest, DefinitionIsSentAndDrawsNothing) {
