@@ -35,6 +35,7 @@ describe.skipIf(!kProgram)("hl touch with two devices", () => {
     );
     expect(await page.locator("#device-list .safety-state").nth(1).getAttribute("title")).toContain("Premium 1.5");
     expect(await page.textContent("#device")).toBe("left: simulated 3D Systems Touch");
+    expect(await page.textContent("#force-of")).toBe("Force on the hand: left");
     await page.uncheck("#explore");  // the right hand goes on
     await page.click("#device-list .move >> nth=1");
     expect(await page.textContent("#explore-text")).toBe("Explore by itself: right");

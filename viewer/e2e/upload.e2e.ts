@@ -7,7 +7,7 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { fileOf, kWhole } from "../test-support/recording_bytes";
 import {
-  expectTidyLayout, kSizes, kWindow, launch, listen, pressModel, resize, screenshot, states, untilTouched,
+  expectTidyLayout, kSizes, kWindow, launch, listen, openSection, pressModel, resize, screenshot, states, untilTouched,
   type Complaints,
 } from "./browser";
 import { boxObj, drop } from "./files";
@@ -87,7 +87,9 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     await page.mouse.up();
   });
 
-  test("is dropped; what it names beside it is left out in a line", async () => {
+  test("is dropped; what it names beside it is left out in a line; a section of what was there is ended", async () => {
+    await openSection(page, "view");
+    await page.selectOption("#section", "front");
     await drop(page, "plate.obj", "", ["dragenter"]);
     await expect.poll(() => page.isVisible("#drop-target")).toBe(true);
     await screenshot(page, "upload_target");
@@ -95,6 +97,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     await page.waitForFunction(() => window.__hl.sceneName === "plate.obj");
     await expect.poll(() => page.isVisible("#drop-target")).toBe(false);
     await expect.poll(lastNotice).toMatch(/^plate\.obj: 12 triangles; .* Comes alone, without plate\.mtl\.$/);
+    expect(await page.inputValue("#section")).toBe("off");
   });
 
   test.skipIf(!existsSync(join(dirname(kProgram ?? ""), "hl-cad")))("of CAD becomes the scene, in metres", async () => {

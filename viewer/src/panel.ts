@@ -61,6 +61,7 @@ export class Panel {
   private readonly actions_: PanelActions;
   private readonly pending_ = new Pending<boolean | number>();
   private readonly buttons_ = new ButtonRow();
+  private shown_: string | undefined;  // name of the layout before, of this server
 
   constructor(actions: PanelActions) {
     this.actions_ = actions;
@@ -119,6 +120,7 @@ export class Panel {
   showHello(hello: Hello): void {
     // A server that has just been met knows nothing of what was set before.
     this.pending_.clear();
+    this.shown_ = undefined;
     this.showName(hello.sceneName || "–");
     this.buttons_.forget();
     setText("model-size", "not received yet");
@@ -126,6 +128,9 @@ export class Panel {
     const device = (label ? `${label}: ` : "") + (hello.device?.name || "–");
     setText("device", device);
     element("device").title = device;
+    const force = "Force on the hand" + (hello.devices.length > 1 && label ? `: ${label}` : "");
+    setText("force-of", force);
+    element("force-badge").title = force;
     const slider = element<HTMLInputElement>("stiffness");
     const recommended = hello.device?.stiffnessNM ?? 0;
     const highest = hello.device?.stiffnessMaxNM || 2 * recommended;
@@ -150,6 +155,11 @@ export class Panel {
 
   showLayout(layout: Layout, counts: Counts): void {
     if (layout.name !== "") {
+      // A cut through one model says nothing about the next.
+      if (this.shown_ !== undefined && layout.name !== this.shown_) {
+        this.endSection();
+      }
+      this.shown_ = layout.name;
       this.showName(layout.name);
     }
     const parts: [number, string][] = [
