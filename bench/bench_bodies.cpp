@@ -131,18 +131,51 @@ void aThousandOfWhich(benchmark::State& bench) {
   timeSteps(bench, std::move(scene), 700, [awake](WorldState& state) { keepAwake(state, awake); });
 }
 
-// From the first touch on the floor until all lies.
-void pileOfAHundred(benchmark::State& bench) {
+// Falls into its box.
+Scene pile(double turned_rad) {
   Scene scene = sceneIn(0.13);
-  for (int i = 0; i < 100; ++i)
-    scene.addCube(Vec3(0.075 * (i % 3 - 1), 0.04 + 0.075 * (i / 9), 0.075 * (i / 3 % 3 - 1)), 0.3 * i);
-  timeSteps(bench, std::move(scene), 0, nothing);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 at(0.075 * (i % 3 - 1), 0.04 + 0.075 * (i / 9), 0.075 * (i / 3 % 3 - 1));
+    scene.addCube(at, turned_rad + 0.3 * i);
+  }
+  return scene;
+}
+
+// From the first touch on the floor until all lies.
+void pileOfAHundred(benchmark::State& bench) { timeSteps(bench, pile(0), 0, nothing); }
+
+// Piles that begin turned otherwise, one an iteration: how many sleep after four seconds, and since when. One pile
+// alone says little: the least change makes another one of it.
+void pilesComeToRest(benchmark::State& bench) {
+  constexpr int kSteps = 4000;
+  double turned_rad = 0, piles = 0, asleep = 0, since_s = 0;
+  for (auto _ : bench) {
+    Scene scene = pile(turned_rad);
+    const auto world = std::make_shared<const World>(std::move(scene.world));
+    WorldState state = startWorld(*world, scene.poses);
+    BodyStepper stepper(world);
+    int last_awake = 0;
+    const double begin_s = processorTime_s();
+    for (int step = 0; step < kSteps; ++step) {
+      if (stepper.step(state, kPeriod_s, {}, {}).awake > 0) last_awake = step;
+    }
+    bench.SetIterationTime((processorTime_s() - begin_s) / kSteps);
+    turned_rad += 0.1;
+    ++piles;
+    if (last_awake + 1 == kSteps) continue;
+    ++asleep;
+    since_s += kPeriod_s * last_awake;
+  }
+  bench.counters["piles"] = piles;
+  bench.counters["asleep"] = asleep;
+  bench.counters["since_s"] = asleep > 0 ? since_s / asleep : 0;
 }
 
 BENCHMARK(tenStacksOfTen)->UseManualTime()->Iterations(3000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(tenStacksThatShake)->UseManualTime()->Iterations(3000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(aThousandOfWhich)->Arg(0)->Arg(50)->UseManualTime()->Iterations(3000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(pileOfAHundred)->UseManualTime()->Iterations(3000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(pilesComeToRest)->UseManualTime()->Iterations(12)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace hl
