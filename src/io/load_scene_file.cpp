@@ -279,6 +279,8 @@ void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string&
   std::vector<SceneSurface> surfaces;
   try {
     surfaces = surfaces_.read(object);
+    for (const std::string& warning : surfaces_.takeWarnings())
+      scene.model.warnings.push_back((object.name().empty() ? "" : object.name() + ": ") + warning);
     for (SceneSurface& surface : surfaces) surface.source = surface.source->placed(placement.linear, placement.offset);
   } catch (const Error& error) {
     fail(at, at + ": " + error.what());

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -32,13 +33,15 @@ ReadCloud cloudReaderOf(const std::string& ending) {
 
 constexpr std::size_t kColumnsThatCount = 6;  // x y z and a normal
 
-// The numbers of a line, as many as there are up to six.
+// The numbers of a line, as many as there are up to six; an empty field ends them.
 std::size_t numbersOf(std::string_view line, PointNumbers& numbers) {
   constexpr const char* kBetween = " \t,;";
   std::size_t count = 0;
   while (count < kColumnsThatCount) {
     const std::size_t begin = line.find_first_not_of(kBetween);
     if (begin == std::string_view::npos) break;
+    const auto marks = std::count_if(line.begin(), line.begin() + begin, [](char c) { return c == ',' || c == ';'; });
+    if (marks > (count > 0 ? 1 : 0)) break;
     line.remove_prefix(begin);
     const std::string_view word = line.substr(0, line.find_first_of(kBetween));
     const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
@@ -79,19 +82,20 @@ std::string cloudAdvice(const std::string& ending) {
 
 void readCloud(const ModelFile& file, CloudSink& sink) { cloudReaderOf(file.ending)(file, sink); }
 
-// A first line may be the number of points, or name the columns. Normals are those of columns four to six, if the first
-// has length 1.
+// The first line that is no comment may be the number of points, or name the columns. Normals are those of columns four
+// to six, if the first has length 1.
 void readXyz(const ModelFile& file, CloudSink& sink) {
   ByteFile in(file.path);
   sink.header({});
   PointNumbers numbers{};
   std::optional<PointPieces> pieces;
   std::string line;
+  bool first = true;
   for (std::uint64_t number = 1; in.line(line); ++number) {
     const std::string_view text = trimmed(number == 1 ? withoutByteOrderMark(line) : line);
     if (text.empty() || text.starts_with('#') || text.starts_with("//")) continue;
     const std::size_t count = numbersOf(text, numbers);
-    if (number == 1 && (count == 1 || namesColumns(text))) continue;
+    if (std::exchange(first, false) && (count == 1 || namesColumns(text))) continue;
     if (count < 3)
       throw Error(fmt::format("is no list of points: line {} is '{}', and a point is x y z", number, shown(text)));
     if (!pieces) pieces.emplace(sink, xyzRecord(count == kColumnsThatCount && isUnitNormal(numbers)));

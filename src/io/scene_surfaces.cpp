@@ -1,7 +1,5 @@
 #include "io/scene_surfaces.h"
 
-#include <utility>
-
 #include "base/error.h"
 #include "builtin.h"
 #include "io/decode_heights.h"
@@ -39,13 +37,15 @@ std::vector<SceneSurface> SceneSurfaces::read(const proto::SceneObject& object) 
   return {surface};
 }
 
-SceneModel SceneSurfaces::load(const std::string& file, const std::string& grid) const {
+SceneModel SceneSurfaces::load(const std::string& file, const std::string& grid) {
   LoadOptions options = options_;
   options.grid = grid;
-  return loadModelScene((folder_ / file).string(), options);
+  SceneModel scene = loadModelScene((folder_ / file).string(), options);
+  for (const std::string& warning : scene.model.warnings) warnings_.push_back(file + ": " + warning);
+  return scene;
 }
 
-std::shared_ptr<const PrimitiveSource> SceneSurfaces::heights(const proto::Heights& in) const {
+std::shared_ptr<const PrimitiveSource> SceneSurfaces::heights(const proto::Heights& in) {
   if (in.file().empty()) return decodeHeights(in);
   const SceneModel scene = load(in.file());
   if (scene.surfaces.empty() || dynamic_cast<const HeightField*>(scene.surfaces.front().source.get()) == nullptr)
@@ -54,7 +54,7 @@ std::shared_ptr<const PrimitiveSource> SceneSurfaces::heights(const proto::Heigh
 }
 
 // What one of them names.
-SceneModel SceneSurfaces::named(const std::string& builtin, const std::string& file, const std::string& grid) const {
+SceneModel SceneSurfaces::named(const std::string& builtin, const std::string& file, const std::string& grid) {
   if (!builtin.empty() && !file.empty()) throw Error("it has a file or a builtin, not both");
   return builtin.empty() ? load(file, grid) : makeBuiltinWorld(builtin);
 }

@@ -349,6 +349,10 @@ TEST(ReadClouds, Xyz) {
   expectPoints(taken("a.xyz", "1 2 3 0 1 0\n-4 5.5 6 0 1 0\n.25 -8 9 0 1 0\n"), true);
   expectPoints(taken("a.xyz", "1 2 3 255 0 12\n-4 5.5 6 0 1 0\n.25 -8 9 0 1 0"), false);
   expectPoints(taken("a.xyz", "\xef\xbb\xbf\"X\", \"Y\", \"Z\"\n1, 2, 3\n-4, 5.5, 6\n.25, -8, 9\n"), false);
+  expectPoints(taken("a.xyz", "// by a scanner\n//X Y Z\n\n3\n1 2 3\n-4 5.5 6\n.25 -8 9\n"), false);
+  expectPoints(taken("a.xyz", "# metres\nx y z\n1 2 3\n-4 , 5.5 , 6\n.25 -8 9\n"), false);
+  EXPECT_EQ(refusal("a.xyz", "1,2,3\n4,,5,6\n"), "is no list of points: line 2 is '4,,5,6', and a point is x y z");
+  EXPECT_EQ(refusal("a.xyz", "1,2,3\n,4,5,6\n"), "is no list of points: line 2 is ',4,5,6', and a point is x y z");
   EXPECT_EQ(refusal("a.xyz", "id,x,y,z\n0,1,2,3\n"),
             "is no list of points: line 1 is 'id,x,y,z', and a point is x y z");
   EXPECT_EQ(refusal("a.xyz", "3\nwater\nO 0 0 0\n"), "is no list of points: line 2 is 'water', and a point is x y z");

@@ -204,6 +204,15 @@ TEST(SceneFile, TheExampleOfCloudsLoads) {
   EXPECT_EQ(makeSnapshot(scene)->instances.size(), 3U);
 }
 
+TEST(SceneFile, WhatTheReaderOfACloudSaysIsAWarning) {
+  fileWith("far.xyz", "1000 2000 0\n1001 2000 0\n1000 2001 0\n");
+  const SceneModel scene =
+      loadSceneFile(fileWith("scene.hl.json", R"({"objects": [{"name": "tile", "cloud": {"file": "far.xyz"}}]})"));
+  const std::string says =
+      "lies far from the origin of its file: its middle, 1000.5 2000.5 0 there, is put at the origin";
+  EXPECT_EQ(scene.model.warnings, std::vector<std::string>{"tile: far.xyz: " + says});
+}
+
 TEST(SceneFile, ACloudThatMakesNoSenseIsRefused) {
   fileWith("three.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   const auto refused = [](const std::string& cloud) {
