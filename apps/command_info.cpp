@@ -230,9 +230,8 @@ void printCloud(const PointCloud& cloud) {
     fmt::print("            surfels that reach {:.4g} m\n", cloud.look().reach * spacing_m);
   } else {
     fmt::print(
-        "            a ball of radius r sinks by about {:.3g} m^2 / r between them; one below some {:.2g} m passes, "
-        "and\n"
-        "            any one where they are farther apart than 1.4 r\n",
+        "            a ball of radius r sinks by about {:.3g} m^2 / r between them; one below some {:.2g} m passes,\n"
+        "            and any one where they are farther apart than 1.4 r\n",
         spacing_m * spacing_m / 4, spacing_m / std::sqrt(2));
   }
 }

@@ -1,9 +1,10 @@
-// FreeNumbers: numbers for objects and textures that are not in use: one after another, without those that the
-// application has chosen itself. So one that chooses the largest number takes no others away.
+// FreeNumbers: numbers for objects and textures that are not in use: above all that were, and where the application has
+// chosen the largest of all, those that are free below.
 #pragma once
 
 #include <hl/hl_types.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -13,19 +14,22 @@ namespace hl::client {
 
 class FreeNumbers {
  public:
-  /// A number > 0 that was never returned before and is not in the table `used`, of what `kind` names.
+  /// The application has chosen this one.
+  void choose(HLuint number) { highest_ = std::max(highest_, number); }
+  /// A number > 0 that is not in the table `used`, of what `kind` names.
   template <typename Table>
   HLuint next(const Table& used, const char* kind) {
+    constexpr HLuint kLargest = std::numeric_limits<HLuint>::max();
+    if (highest_ < kLargest) return ++highest_;
     do {
-      if (last_ == std::numeric_limits<HLuint>::max())
-        throw Fault(HL_OUT_OF_MEMORY, std::string("all numbers of ") + kind + " are in use");
-      ++last_;
-    } while (used.contains(last_));
-    return last_;
+      if (below_ == kLargest) throw Fault(HL_OUT_OF_MEMORY, std::string("all numbers of ") + kind + " are in use");
+      ++below_;
+    } while (used.contains(below_));
+    return below_;
   }
 
  private:
-  HLuint last_ = 0;
+  HLuint highest_ = 0, below_ = 0;
 };
 
 }  // namespace hl::client

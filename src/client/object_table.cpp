@@ -13,6 +13,7 @@ bool ObjectTable::remove(HLuint object) {
 void ObjectTable::define(HLuint object, const ItemList& items) {
   changes_.remember(objects_, object);
   objects_[object] = {items.uses(), items.vertices(), items.volumes()};
+  numbers_.choose(object);
 }
 
 bool ObjectTable::reaches(HLuint from, HLuint to) const {

@@ -18,7 +18,7 @@ namespace hl::client {
 
 class ObjectTable {
  public:
-  /// A number > 0 that was never returned before and is not in use.
+  /// A number > 0 that is not in use.
   HLuint generate() { return numbers_.next(objects_, "objects"); }
   bool isDefined(HLuint object) const { return objects_.contains(object); }
   /// Defines or redefines `object`.

@@ -27,6 +27,7 @@ void TextureTable::bind(HLuint texture) {
   if (texture == 0) return;
   if (!contains(texture)) changes_.remember(textures_, texture);
   textures_.try_emplace(texture);
+  numbers_.choose(texture);
 }
 
 void TextureTable::remove(HLuint texture) {

@@ -25,7 +25,7 @@ struct Texture {
 
 class TextureTable {
  public:
-  /// A number > 0 that was never returned before and is not in use.
+  /// A number > 0 that is not in use.
   HLuint generate() { return numbers_.next(textures_, "textures"); }
   /// Makes the texture if there is none of this number; 0 is none.
   void bind(HLuint texture);

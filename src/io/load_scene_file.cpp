@@ -270,6 +270,12 @@ void SceneFile::setMaterial(const proto::SceneObject& object, const std::string&
          where + ": volumes, clouds and implicit surfaces have no texture coordinates, and take no textures");
 }
 
+// What a reader had to say of the object.
+void addWarnings(const std::vector<std::string>& warnings, const proto::SceneObject& object, Model& whole) {
+  const std::string name = object.name().empty() ? "" : object.name() + ": ";
+  for (const std::string& warning : warnings) whole.warnings.push_back(name + warning);
+}
+
 // A surface stays what it is: it is no part of the one model.
 void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene) {
   const std::string at = where + "." + SceneSurfaces::fieldOf(object);
@@ -279,8 +285,7 @@ void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string&
   std::vector<SceneSurface> surfaces;
   try {
     surfaces = surfaces_.read(object);
-    for (const std::string& warning : surfaces_.takeWarnings())
-      scene.model.warnings.push_back((object.name().empty() ? "" : object.name() + ": ") + warning);
+    addWarnings(surfaces_.takeWarnings(), object, scene.model);
     for (SceneSurface& surface : surfaces) surface.source = surface.source->placed(placement.linear, placement.offset);
   } catch (const Error& error) {
     fail(at, at + ": " + error.what());
@@ -339,7 +344,7 @@ void SceneFile::addAtRest(Model part, const proto::SceneObject& object, const st
   placeModel(part, placement);
   whole.materials.push_back(materialOf(object.material(), where + ".material"));
   appendPart(whole, part, static_cast<std::uint16_t>(whole.materials.size() - 1));
-  for (const std::string& warning : part.warnings) whole.warnings.push_back(object.name() + ": " + warning);
+  addWarnings(part.warnings, object, whole);
   for (SnapSpec& snap : snapsOf(object, placement, where)) scene.snaps.push_back(std::move(snap));
   for (FieldSpec& field : fieldsOf(object, placement, where)) scene.fields.push_back(std::move(field));
 }

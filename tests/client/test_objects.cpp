@@ -24,7 +24,7 @@ TEST_F(CallsTest, GeneratedNumbersAreNew) {
   define(3);
   HLuint objects[2];
   hlGenObjects(2, objects);
-  EXPECT_GT(objects[0], 0U);
+  EXPECT_GT(objects[0], 3U);
   EXPECT_NE(objects[0], objects[1]);
   EXPECT_EQ(hlIsObject(objects[0]), HL_FALSE);
   hlGenObjects(-1, objects), expectError(HL_INVALID_VALUE);
