@@ -44,20 +44,35 @@ FloatGrid::Ptr readOpenVdb(std::istream& in, const std::string& name) {
   return floatsOf((*all)[chosenGrid(grids, name)]);
 }
 
-bool becomesFloats(nanovdb::GridType type) {
-  using Type = nanovdb::GridType;
-  return type == Type::Float || type == Type::Fp4 || type == Type::Fp8 || type == Type::Fp16 || type == Type::FpN;
-}
+// Of all that a NanoVDB file may hold, what becomes floats: OpenVDB's own function would make the code for all of it.
+template <typename... Builds>
+struct FloatBuilds {
+  static bool has(nanovdb::GridType type) { return ((type == nanovdb::mapToGridType<Builds>()) || ...); }
+
+  static FloatGrid::Ptr read(const nanovdb::GridHandle<>& handle) {
+    FloatGrid::Ptr grid;
+    ((grid = grid ? grid : readAs<Builds>(handle)), ...);
+    return grid;
+  }
+
+ private:
+  template <typename Build>
+  static FloatGrid::Ptr readAs(const nanovdb::GridHandle<>& handle) {
+    const auto* const grid = handle.grid<Build>();
+    return grid != nullptr ? nanovdb::nanoToOpenVDB(*grid) : nullptr;
+  }
+};
+using NanoFloats = FloatBuilds<float, nanovdb::Fp4, nanovdb::Fp8, nanovdb::Fp16, nanovdb::FpN>;
 
 FloatGrid::Ptr readNanoVdb(std::istream& in, const std::string& name) {
   std::vector<GridInFile> grids;
   for (const auto& grid : nanovdb::io::readGridMetaData(in))
-    grids.push_back({grid.gridName, nanovdb::toStr(grid.gridType), becomesFloats(grid.gridType),
+    grids.push_back({grid.gridName, nanovdb::toStr(grid.gridType), NanoFloats::has(grid.gridType),
                      grid.gridClass == nanovdb::GridClass::LevelSet});
   const std::size_t chosen = chosenGrid(grids, name);
   in.clear();
   in.seekg(0);
-  return floatsOf(nanovdb::nanoToOpenVDB(nanovdb::io::readGrid(in, chosen)));
+  return floatsOf(NanoFloats::read(nanovdb::io::readGrid(in, chosen)));
 }
 
 // OpenVDB says what is wrong with what it has read, in words for those who program with it: "IoError: not a VDB file".

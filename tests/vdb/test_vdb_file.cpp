@@ -241,7 +241,7 @@ TEST_F(VdbFile, NanoVdbHasTheSameSamples) {
   const SceneModel open = load(vdbFile("ball.vdb", {grid}));
   const IsoSurface& a = surfaceOf(open);
   for (const auto codec : {nanovdb::io::Codec::NONE, nanovdb::io::Codec::ZIP, nanovdb::io::Codec::BLOSC}) {
-    nanovdb::io::writeGrid(tempFile("ball.nvdb"), nanovdb::openToNanoVDB(grid), codec);
+    nanovdb::io::writeGrid(tempFile("ball.nvdb"), nanovdb::openToNanoVDB(*grid), codec);
     const SceneModel nano = load(tempFile("ball.nvdb"), "ball");
     const IsoSurface& b = surfaceOf(nano);
     ASSERT_EQ(a.volume()->grid.bytes(), b.volume()->grid.bytes());
@@ -253,9 +253,25 @@ TEST_F(VdbFile, NanoVdbHasTheSameSamples) {
   }
 }
 
+TEST_F(VdbFile, NanoVdbOfShortFloatsIsReadWithinTheirSteps) {
+  constexpr double kVoxel = 1e-3, kBand = 2 * 3 * kVoxel;
+  const FloatGrid::Ptr grid = ball(0.02, kVoxel);
+  const auto handle = nanovdb::openToNanoVDB<nanovdb::HostBuffer, openvdb::FloatTree, nanovdb::Fp16>(*grid);
+  nanovdb::io::writeGrid(tempFile("short.nvdb"), handle);
+  const SceneModel whole = load(vdbFile("whole.vdb", {grid})), rounded = load(tempFile("short.nvdb"));
+  const VoxelGrid &a = surfaceOf(whole).volume()->grid, &b = surfaceOf(rounded).volume()->grid;
+  ASSERT_EQ(a.bytes(), b.bytes());
+  const auto* const of_a = reinterpret_cast<const float*>(a.samples().data());
+  const auto* const of_b = reinterpret_cast<const float*>(b.samples().data());
+  double farthest = 0;
+  for (std::size_t i = 0; i < a.count(); ++i) farthest = std::max<double>(farthest, std::abs(of_a[i] - of_b[i]));
+  EXPECT_GT(farthest, 0);
+  EXPECT_LT(farthest, kBand / 65535);  // of a leaf's least to its greatest
+}
+
 TEST_F(VdbFile, WhatIsBrokenGivesOneLine) {
   const FloatGrid::Ptr grid = ball(0.005, 1e-3);
-  nanovdb::io::writeGrid(tempFile("good.nvdb"), nanovdb::openToNanoVDB(grid));
+  nanovdb::io::writeGrid(tempFile("good.nvdb"), nanovdb::openToNanoVDB(*grid));
   vdbFile("good.vdb", {grid});
   for (const std::string ending : {".vdb", ".nvdb"}) {
     const std::string good = contentOf(tempFile("good" + ending));
