@@ -27,6 +27,30 @@ using gdcm::Tag;
 
 constexpr const char* kNoDicom = "is not sound DICOM: it is broken, or cut off";
 
+/// A file that says whether it ended within what was asked of it. GDCM makes up what is missing of the samples. After
+/// the last element it asks for the next tag.
+class WatchedFile : public std::filebuf {
+ public:
+  explicit WatchedFile(const std::string& path) { open(path, std::ios::in | std::ios::binary); }
+  bool endedEarly() const { return ended_early_; }
+
+ protected:
+  std::streamsize xsgetn(char* to, std::streamsize count) override {
+    constexpr std::streamsize kTag = 4;
+    const std::streamsize got = std::filebuf::xsgetn(to, count);
+    ended_early_ = ended_early_ || (got < count && (got > 0 || count > kTag));
+    return got;
+  }
+
+ private:
+  bool ended_early_ = false;
+};
+
+// What is deflated is read ahead, and zlib sees where it ends.
+bool isDeflated(const gdcm::File& file) {
+  return file.GetHeader().GetDataSetTransferSyntax() == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
+}
+
 void silenceGdcm() {
   gdcm::Trace::WarningOff();
   gdcm::Trace::ErrorOff();
@@ -211,9 +235,11 @@ DicomFile readDicomHeader(const std::string& path) {
 
 std::vector<std::byte> readDicomSamples(const DicomFile& file) {
   return withGdcm([&] {
+    WatchedFile in(file.path);
+    std::istream stream(&in);
     gdcm::ImageReader reader;
-    reader.SetFileName(file.path.c_str());
-    if (!reader.Read()) throw Error(kNoDicom);
+    reader.SetStream(stream);
+    if (!reader.Read() || (in.endedEarly() && !isDeflated(reader.GetFile()))) throw Error(kNoDicom);
     const gdcm::Image& image = reader.GetImage();
     const std::size_t samples = std::size_t{file.columns} * file.rows * file.frames;
     const gdcm::ByteValue* const plain = image.GetDataElement().GetByteValue();

@@ -90,6 +90,16 @@ Series seriesOf(const ModelFile& file, VolumeSink& sink) {
   return found == all.end() ? Series{one} : found->second;
 }
 
+// Of several files, an error says which of them it is of.
+std::vector<std::byte> samplesOf(const DicomFile& file, bool one_of_many) {
+  try {
+    return readDicomSamples(file);
+  } catch (const Error& error) {
+    if (!one_of_many) throw;
+    throw Error(fmt::format("{} (slice '{}')", error.what(), shown(fs::path(file.path).filename().string())));
+  }
+}
+
 void checkSameForm(const Series& series) {
   const DicomFile& first = series.front();
   for (const DicomFile& file : series) {
@@ -211,7 +221,7 @@ void readDicom(const ModelFile& file, VolumeSink& sink) {
   std::vector<std::byte> stored;
   for (const DicomSlice& slice : slices) {
     const DicomFile* const in = files.at(slice.path);
-    if (in != last) stored = readDicomSamples(*in);
+    if (in != last) stored = samplesOf(*in, series.size() > 1);
     last = in;
     const std::size_t bytes = std::size_t{form.columns} * form.rows * form.bytes;
     const std::vector<std::byte> samples = numbers.samplesOf(slice, &stored[slice.frame * bytes]);

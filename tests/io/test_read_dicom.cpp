@@ -338,10 +338,23 @@ TEST(ReadDicom, WhatMakesNoVolumeIsRefused) {
   EXPECT_EQ(refused([](DicomSet& set) {
               set.text({0x7fe0, 0x10}, "OW", "short!");
             }),
-            "is not sound DICOM: it is broken, or cut off");
+            "is not sound DICOM: it is broken, or cut off (slice '2.dcm')");
   EXPECT_EQ(Folder().refusal(), "has no DICOM image in it");
   EXPECT_EQ(test::volumeRefusalOf(test::fileWith("text.dcm", "This is a text, and no image.")),
             "is not sound DICOM: it is broken, or cut off");
+}
+
+TEST(ReadDicom, ASliceThatIsCutOffAnywhereIsRefused) {
+  const DicomForm form;
+  const std::string whole = dicomFile(dicomSlice(form, samplesOf(form, 0), Vec3(0, 0, 1)));
+  const std::size_t samples = std::size_t{form.columns} * form.rows * form.bytes;
+  for (std::size_t missing = 1; missing <= samples; ++missing) {
+    const Folder folder;
+    folder.put("0.dcm", dicomFile(dicomSlice(form, samplesOf(form, 0), Vec3(0, 0, 0))));
+    folder.put("1.dcm", whole.substr(0, whole.size() - missing));
+    const std::string refusal = folder.refusal();
+    EXPECT_TRUE(refusal.starts_with("is not sound DICOM: it is broken, or cut off")) << missing << ": " << refusal;
+  }
 }
 
 // Debian's python3-pydicom: a chest, five slices of 16 x 16, and a dose of fifteen frames.
