@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -99,6 +100,7 @@ bool isBigEndian(const std::string& name) {
 class NrrdFields {
  public:
   void take(const std::string& field, std::string_view value) {
+    if (!taken_.insert(field).second) failNrrd(fmt::format("it has two fields '{}'", shown(field)));
     const std::string low = lowered(value);
     if (field == "type") header_.type = typeNamed(low), typed_ = true;
     if (field == "encoding") header_.encoding = low;
@@ -130,6 +132,7 @@ class NrrdFields {
   }
 
  private:
+  std::set<std::string> taken_;
   NrrdHeader header_;
   double dimension_ = 0;
   bool typed_ = false;

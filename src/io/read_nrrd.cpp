@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -29,6 +28,20 @@ bool inSpace(const NrrdHeader& header, std::size_t axis) {
   if (header.kinds.empty()) return axis < 3;
   constexpr std::array<std::string_view, 4> kKinds{"domain", "space", "???", "none"};
   return axis < 3 && std::find(kKinds.begin(), kKinds.end(), header.kinds[axis]) != kKinds.end();
+}
+
+// An axis of one number, as some programs write for grey, is none.
+void dropAxesOfOne(NrrdHeader& header) {
+  const auto drop = [](auto& list, std::size_t axis) {
+    if (!list.empty()) list.erase(list.begin() + static_cast<std::ptrdiff_t>(axis));
+  };
+  for (std::size_t axis = header.sizes.size(); axis-- > 0;) {
+    if (header.sizes.size() <= 3 || header.sizes[axis] != 1 || inSpace(header, axis)) continue;
+    drop(header.sizes, axis);
+    drop(header.kinds, axis);
+    drop(header.directions, axis);
+    drop(header.spacings, axis);
+  }
 }
 
 // The three axes of space come first. Of what more there is, the first volume is read.
@@ -75,6 +88,14 @@ const Vec3* toRas(const std::string& space) {
   return nullptr;
 }
 
+void warnOfSpace(const std::string& space, VolumeSink& sink) {
+  constexpr std::array<std::string_view, 6> kAsTheyAre{"scanner-xyz",     "scanner-xyz-time",
+                                                       "3d-right-handed", "3d-right-handed-time",
+                                                       "3d-left-handed",  "3d-left-handed-time"};
+  if (!space.empty() && std::find(kAsTheyAre.begin(), kAsTheyAre.end(), space) == kAsTheyAre.end())
+    sink.warn(fmt::format("has a space '{}', which is not known: x, y and z are taken as they are", shown(space)));
+}
+
 // In units of the file, in its space.
 Mat3 stepsOf(const NrrdHeader& header, VolumeSink& sink) {
   Mat3 steps = Mat3::Identity();
@@ -90,6 +111,7 @@ Mat3 stepsOf(const NrrdHeader& header, VolumeSink& sink) {
 
 Mat3 nrrdAxesOf(const NrrdHeader& header, VolumeSink& sink) {
   const Vec3* const signs = toRas(header.space);
+  if (signs == nullptr) warnOfSpace(header.space, sink);
   const Mat3 steps = nrrdUnitOf(header, signs != nullptr, sink) * stepsOf(header, sink);
   return signs == nullptr ? steps : fromPatient(signs->asDiagonal() * steps);
 }
@@ -123,6 +145,8 @@ ByteFile nrrdDataOf(const ModelFile& file, const NrrdHeader& header, std::uint64
   const std::string path = nrrdDataPathOf(file, header);
   const bool packed = header.encoding == "gzip" || header.encoding == "gz";
   const std::uint64_t begin = header.data_file.empty() ? place : 0;
+  if (header.data_file.empty() && std::filesystem::file_size(path) <= place)
+    throw Error("is a header alone, and names no data file");
   if (header.byte_skip == kNrrdAtTheEnd) {
     const std::uint64_t all = std::filesystem::file_size(path);
     if (all < begin || all - begin < bytes) throw Error(kEndsEarly);
@@ -139,15 +163,12 @@ ByteFile nrrdDataOf(const ModelFile& file, const NrrdHeader& header, std::uint64
 }
 
 template <typename Kept>
-void copyWords(TextWords& words, std::uint64_t count, VolumeSink& sink) {
+void copyWords(TextWords& words, NumberType type, std::uint64_t count, VolumeSink& sink) {
   constexpr std::size_t kAtOnce = 1 << 14;
   std::vector<Kept> kept;
   for (std::uint64_t i = 0; i < count; ++i) {
     const double value = words.number("a sample");
-    if constexpr (std::is_integral_v<Kept>) {
-      if (!(value >= std::numeric_limits<Kept>::min() && value <= std::numeric_limits<Kept>::max()))
-        throw Error(fmt::format("has a sample of {:g}, which its type does not have", value));
-    }
+    if (!canBe(type, value)) throw Error(fmt::format("has a sample of {:g}, which its type does not have", value));
     kept.push_back(static_cast<Kept>(value));
     if (kept.size() < kAtOnce && i + 1 < count) continue;
     sink.samples(kept.data(), kept.size() * sizeof(Kept));
@@ -155,20 +176,20 @@ void copyWords(TextWords& words, std::uint64_t count, VolumeSink& sink) {
   }
 }
 
-void copyKept(TextWords& words, SampleKind kind, std::uint64_t count, VolumeSink& sink) {
-  switch (kind) {
+void copyKept(TextWords& words, NumberType type, std::uint64_t count, VolumeSink& sink) {
+  switch (keptAs(type)) {
     case SampleKind::kInt16:
-      return copyWords<std::int16_t>(words, count, sink);
+      return copyWords<std::int16_t>(words, type, count, sink);
     case SampleKind::kUint16:
-      return copyWords<std::uint16_t>(words, count, sink);
+      return copyWords<std::uint16_t>(words, type, count, sink);
     case SampleKind::kFloat32:
-      return copyWords<float>(words, count, sink);
+      return copyWords<float>(words, type, count, sink);
   }
 }
 
 void copyText(ByteFile in, NumberType type, const std::array<std::uint32_t, 3>& side, VolumeSink& sink) {
   TextWords words(std::move(in), "a NRRD file");
-  copyKept(words, keptAs(type), samplesIn(side), sink);
+  copyKept(words, type, samplesIn(side), sink);
   words.checkEnd({side[0], side[1], side[2]});
 }
 
@@ -186,9 +207,10 @@ void checkEncoding(const NrrdHeader& header) {
 
 void readNrrd(const ModelFile& file, VolumeSink& sink) {
   ByteFile in(file.path);
-  const NrrdHeader header = readNrrdHeader(in);
+  NrrdHeader header = readNrrdHeader(in);
   checkEncoding(header);
   checkSkips(header);
+  dropAxesOfOne(header);
   const auto side = nrrdSidesOf(header, sink);
   const GridFrame frame = centredFrame(side, nrrdAxesOf(header, sink));
   const std::uint64_t count = samplesIn(side), bytes = count * sizeOf(header.type);

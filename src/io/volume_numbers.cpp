@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "io/copy_samples.h"
 
 namespace hl {
@@ -35,6 +37,15 @@ std::uint64_t copyTyped(ByteFile& in, const NumberForm& form, std::uint64_t coun
 std::size_t sizeOf(NumberType type) {
   constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
   return kSizes[static_cast<std::size_t>(type)];
+}
+
+bool canBe(NumberType type, double value) {
+  if (type == NumberType::kFloat32 || type == NumberType::kFloat64) return true;
+  const bool is_signed = type == NumberType::kInt8 || type == NumberType::kInt16 || type == NumberType::kInt32;
+  const int bits = 8 * static_cast<int>(sizeOf(type));
+  const double least = is_signed ? -std::ldexp(1, bits - 1) : 0;
+  const double end = std::ldexp(1, is_signed ? bits - 1 : bits);
+  return value >= least && value < end && value == std::floor(value);
 }
 
 SampleKind keptAs(NumberType type) {

@@ -18,6 +18,8 @@ struct NumberForm {
 };
 
 std::size_t sizeOf(NumberType type);
+/// Whether a number of this type may be that: integers of their range, or anything.
+bool canBe(NumberType type, double value);
 /// No number of 16 bits or of float32 changes by it.
 SampleKind keptAs(NumberType type);
 

@@ -1,4 +1,5 @@
 // NRRD files: types, encodings and spaces come out as the format says, and what is broken gives one line.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -20,11 +21,11 @@ using test::VolumeTaker;
 constexpr std::array<std::size_t, 3> kSide{5, 4, 3};
 constexpr bool kLittle = false;
 
-std::string headerWith(const std::string& type, const std::string& rest) {
-  return "NRRD0004\n# by a test\ntype: " + type + "\ndimension: 3\nsizes: 5 4 3\n" + rest;
+std::string headerWith(const std::string& type, const std::string& rest, const std::string& sizes = "5 4 3") {
+  return "NRRD0004\n# by a test\ntype: " + type + "\ndimension: 3\nsizes: " + sizes + "\n" + rest;
 }
-std::string fileOf(const std::string& rest) {
-  return headerWith("short", "encoding: raw\nendian: little\n" + rest) + "\n" +
+std::string fileOf(const std::string& rest, const std::string& sizes = "5 4 3") {
+  return headerWith("short", "encoding: raw\nendian: little\n" + rest, sizes) + "\n" +
          test::testSamples<std::int16_t>(kSide, kLittle);
 }
 VolumeTaker taken(const std::string& bytes) { return volumeIn(fileWith("a.nrrd", bytes)); }
@@ -104,6 +105,26 @@ TEST(ReadNrrd, SpacesThatAreNoPatients) {
   const VolumeTaker bare = taken(fileOf(""));
   EXPECT_EQ(bare.warnings().size(), 2U);
   EXPECT_EQ(bare.header().frame.axes(2, 2), 1e-3);
+}
+
+TEST(ReadNrrd, ASpaceThatIsNotKnownIsAWarning) {
+  const std::string units = "space units: \"mm\" \"mm\" \"mm\"\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n";
+  EXPECT_EQ(taken(fileOf("space: left-handed-martian\n" + units)).warnings(),
+            std::vector<std::string>{
+                "has a space 'left-handed-martian', which is not known: x, y and z are taken as they are"});
+  EXPECT_TRUE(taken(fileOf("space: scanner-xyz\n" + units)).warnings().empty());
+}
+
+TEST(ReadNrrd, AnAxisOfOneNumberIsNone) {
+  const std::string start = "NRRD0005\ntype: short\ndimension: 4\nencoding: raw\nendian: little\n";
+  const std::string samples = test::testSamples<std::int16_t>(kSide, kLittle);
+  for (const std::string axes : {"sizes: 1 5 4 3\nspace: LPS\nspace directions: none (1,0,0) (0,1,0) (0,0,2)\n",
+                                 "sizes: 5 4 3 1\nspace: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,2) none\n",
+                                 "sizes: 1 5 4 3\nkinds: scalar domain domain domain\nspacings: nan 1 1 2\n"}) {
+    const VolumeTaker volume = taken(start + axes + "\n" + samples);
+    expectSamples(volume);
+    EXPECT_DOUBLE_EQ(volume.header().frame.axes.col(2).norm(), 2e-3) << axes;
+  }
 }
 
 TEST(ReadNrrd, TheFirstOfManyVolumes) {
@@ -206,15 +227,22 @@ TEST(ReadNrrd, WhatIsBrokenGivesOneLine) {
   EXPECT_EQ(refusal(fileOf("spacings: 1 0 1\n")), "says no distances and directions between its samples that could be");
   EXPECT_EQ(refusal(fileOf("spacings: 1 nan 1\n")),
             "says no distances and directions between its samples that could be");
-  EXPECT_EQ(refusal(fileOf("sizes: 5 4\n")), "is not a sound NRRD file: it has dimension 3 and 2 sizes");
-  EXPECT_EQ(refusal(fileOf("sizes: 1e6 1e6 1e6\n")), "ends before its last sample");
-  EXPECT_EQ(refusal(fileOf("sizes: 5 4 1e30\n")).find("has 5 x 4 x 1e+30 samples: "), 0U);
+  EXPECT_EQ(refusal(fileOf("", "5 4")), "is not a sound NRRD file: it has dimension 3 and 2 sizes");
+  EXPECT_EQ(refusal(fileOf("", "1e6 1e6 1e6")), "ends before its last sample");
+  EXPECT_EQ(refusal(fileOf("", "5 4 1e30")).find("has 5 x 4 x 1e+30 samples: "), 0U);
   EXPECT_EQ(refusal(headerWith("float", "encoding: ascii\n\n") + textSamples() + "7"),
             "has more samples than the 5 x 4 x 3 of its header");
   EXPECT_EQ(refusal(headerWith("uchar", "encoding: ascii\n\n") + textSamples().substr(0, 100)),
             "ends before its last sample");
-  EXPECT_EQ(refusal(headerWith("short", "encoding: ascii\n\n70000 " + textSamples())),
-            "has a sample of 70000, which its type does not have");
+  for (const auto& [type, number] :
+       {std::pair("short", "70000"), std::pair("short", "9.5"), std::pair("uchar", "256"),
+        std::pair("signed char", "-129"), std::pair("uint", "-1"), std::pair("int", "3e9")})
+    EXPECT_EQ(refusal(headerWith(type, std::string("encoding: ascii\n\n") + number + " " + textSamples())),
+              fmt::format("has a sample of {:g}, which its type does not have", std::stod(number)));
+  EXPECT_EQ(refusal(fileOf("sizes: 4 5 3\n")), "is not a sound NRRD file: it has two fields 'sizes'");
+  for (const std::string nameless : {"", "data file: \n"})
+    EXPECT_EQ(refusal(headerWith("short", "encoding: raw\nendian: little\n" + nameless)),
+              "is a header alone, and names no data file");
   EXPECT_EQ(refusal(headerWith("short", "encoding: gzip\nendian: little\n\n") + textSamples()),
             "is not sound gzip: it is broken, or cut off");
 }
