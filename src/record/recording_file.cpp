@@ -25,7 +25,8 @@ static_assert(std::endian::native == std::endian::little, "the head of a block i
 
 // The number is that of the form: it rises when fields of the recorded structures change their order or meaning. When
 // one comes or goes the lists no longer fit, and that is reported too.
-constexpr std::string_view kMagic = "HLREC2\r\n", kFirstForm = "HLREC1\r\n";
+constexpr std::string_view kMagic = "HLREC2\r\n";
+constexpr std::size_t kFormAt = 5;  // of the magic number: the digit of the form
 // A block may be a mesh of tens of millions of triangles; protobuf's own limit.
 constexpr std::uint64_t kMaxBlockBytes = 0x7fffffff;
 // Deflate packs no better than this; more is a damaged head, not worth its memory.
@@ -66,6 +67,18 @@ FilePointer madeFile(const std::string& path) {
   return std::make_shared<const OpenFile>(descriptor);
 }
 
+// Throws hl::Error for a file of another form, or of another kind.
+void checkMagic(std::string_view begin, const std::string& path) {
+  if (begin == kMagic) return;
+  const char form = begin.size() == kMagic.size() ? begin[kFormAt] : ' ';
+  std::string as_here(begin);
+  if (form >= '1' && form <= '9') as_here[kFormAt] = kMagic[kFormAt];
+  if (as_here != kMagic) throw Error(path + ": this is no recording of hl record");
+  throw Error(
+      fmt::format("{}: is a recording of form {}, and this version of HL reads form {}: use the one that made it", path,
+                  form, kMagic[kFormAt]));
+}
+
 }  // namespace
 
 RecordingWriter::RecordingWriter(const std::string& path) : RecordingWriter(madeFile(path), path) {}
@@ -90,17 +103,14 @@ void RecordingWriter::write(const proto::RecordingBlock& block) {
   append(bytes + body);
 }
 
-RecordingReader::RecordingReader(const std::string& path) : in_(path, std::ios::binary) {
+RecordingReader::RecordingReader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
   checkPlainFile(path);
   std::error_code error;
   left_ = std::filesystem::file_size(path, error);
   if (!in_ || error) throw Error(path + ": can not be read");
   std::array<char, kMagic.size()> magic{};
   in_.read(magic.data(), magic.size());
-  const std::string_view begin(magic.data(), magic.size());
-  if (begin == kFirstForm)
-    throw Error(path + ": is a recording of form 1, and this version of HL reads form 2: use the one that made it");
-  if (!in_ || begin != kMagic) throw Error(path + ": this is no recording of hl record");
+  checkMagic({magic.data(), static_cast<std::size_t>(in_.gcount())}, path);
   left_ -= magic.size();
 }
 
@@ -131,7 +141,7 @@ bool RecordingReader::next(proto::RecordingBlock& block) {
 
 proto::RecordingStart startOf(RecordingReader& reader) {
   proto::RecordingBlock block;
-  if (!reader.next(block) || !block.has_start()) throw Error("nothing of the recording can be read");
+  if (!reader.next(block) || !block.has_start()) throw Error(reader.path() + ": nothing of the recording can be read");
   return block.start();
 }
 

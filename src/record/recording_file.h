@@ -42,6 +42,7 @@ class RecordingReader {
  public:
   /// Throws hl::Error when the file can not be read or is no recording.
   explicit RecordingReader(const std::string& path);
+  const std::string& path() const { return path_; }
 
   /// The next block; false at the end.
   bool next(proto::RecordingBlock& block);
@@ -51,6 +52,7 @@ class RecordingReader {
  private:
   bool readBlock(std::string& packed, std::uint32_t& raw_bytes);
 
+  std::string path_;
   std::ifstream in_;
   std::uint64_t left_ = 0;  // bytes of the file
   std::string damage_;

@@ -669,13 +669,17 @@ TEST_F(RecordingFile, ADamagedBitEndsItWhereItIs) {
 }
 
 TEST_F(RecordingFile, OfAnotherFormSaysWhich) {
-  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary) << "HLREC1\r\n";
-  std::string damage;
-  try {
-    readAll(path, damage);
-    ADD_FAILURE() << "it was read";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("form 1"), std::string::npos) << error.what();
+  for (const std::string form : {"1", "3", "9"}) {
+    std::fstream(path, std::ios::in | std::ios::out | std::ios::binary) << "HLREC" + form + "\r\n";
+    std::string damage;
+    try {
+      readAll(path, damage);
+      ADD_FAILURE() << "it was read";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("form " + form + ", and this version of HL reads form 2"),
+                std::string::npos)
+          << error.what();
+    }
   }
 }
 
