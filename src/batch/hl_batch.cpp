@@ -103,6 +103,9 @@ std::string outOfRange(const QuantityInfo& quantity) {
 // As hl trace: no product of them, lengths and speeds leaves the range of doubles.
 constexpr double kMinRadius_m = 1e-12, kMaxRadius_m = 1e9, kMinSpring_N_m = 1e-9, kMaxSpring_N_m = 1e9;
 
+// Beyond it a count cannot be that of an array: indices have 32 bits.
+void requireCount(std::size_t count, const char* what) { require(count <= std::numeric_limits<HLuint>::max(), what); }
+
 void requireFinite(const HLdouble* numbers, std::size_t count, const char* what) {
   require(std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); }), what);
 }
@@ -124,6 +127,7 @@ ProxySettings settingsOf(const HLbatchSettings* given) {
   require(given->radius >= kMinRadius_m && given->radius <= kMaxRadius_m, "the radius must be 1e-12 to 1e9 m");
   require(given->spring >= kMinSpring_N_m && given->spring <= kMaxSpring_N_m, "the spring must be 1e-9 to 1e9 N/m");
   require(given->period >= kMinStep_s && given->period <= kLastTime_s, "the period must be 1e-15 to 1e15 s");
+  require(given->smooth >= -1 && given->smooth <= 1, "smooth must be HL_TRUE, HL_FALSE or -1");
   ProxySettings settings;
   settings.radius = given->radius;
   settings.spring_N_m = given->spring;
@@ -227,6 +231,8 @@ HLbatchScene* hlBatchMakeScene(const HLdouble* positions, const HLdouble* normal
   HLbatchScene* scene = nullptr;
   guardedCall(__func__, [&] {
     require(positions != nullptr && indices != nullptr, "positions or indices is NULL");
+    requireCount(vertices, "there are more vertices than indices can name");
+    requireCount(triangles, "there are too many triangles");
     requireFinite(positions, 3 * vertices, "positions must be finite");
     if (normals != nullptr) requireFinite(normals, 3 * vertices, "normals must be finite");
     require(std::all_of(indices, indices + 3 * triangles, [&](HLuint i) { return i < vertices; }),
@@ -283,6 +289,7 @@ HLbatchScene* hlBatchMakePoints(const HLdouble* points, const HLdouble* normals,
   HLbatchScene* scene = nullptr;
   guardedCall(__func__, [&] {
     require(points != nullptr, "points is NULL");
+    requireCount(count, "there are too many points");
     requireFinite(points, 3 * count, "points must be finite");
     if (normals != nullptr) requireFinite(normals, 3 * count, "normals must be finite");
     std::vector<Vec3> positions;

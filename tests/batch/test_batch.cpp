@@ -309,6 +309,11 @@ TEST(Batch, BadInputIsRefusedWithALine) {
   EXPECT_EQ(hlBatchMakeScene(positions, nullptr, 3, bad, 1), nullptr);
   EXPECT_EQ(std::string(hlBatchError()), "hlBatchMakeScene: an index names no vertex");
   EXPECT_EQ(hlBatchMakeScene(positions, nullptr, 3, same, 1), nullptr) << "nothing in it can be touched";
+  constexpr std::size_t kOfNoArray = std::size_t{1} << 60;
+  EXPECT_EQ(hlBatchMakeScene(positions, nullptr, kOfNoArray, same, 1), nullptr);
+  EXPECT_EQ(hlBatchMakeScene(positions, nullptr, 3, same, kOfNoArray), nullptr);
+  EXPECT_EQ(hlBatchMakePoints(positions, nullptr, kOfNoArray, 0), nullptr);
+  EXPECT_EQ(std::string(hlBatchError()), "hlBatchMakePoints: there are too many points");
 
   const Scene scene = load("teapot");
   HLbatchSettings settings;
@@ -319,6 +324,10 @@ TEST(Batch, BadInputIsRefusedWithALine) {
   HLbatchSettings flat = settings;
   flat.radius = 0;
   EXPECT_EQ(hlBatchMakeFingers(scene.get(), &flat, 1), nullptr);
+  HLbatchSettings neither = settings;
+  neither.smooth = 7;
+  EXPECT_EQ(hlBatchMakeFingers(scene.get(), &neither, 1), nullptr);
+  EXPECT_EQ(std::string(hlBatchError()), "hlBatchMakeFingers: smooth must be HL_TRUE, HL_FALSE or -1");
   const Fingers fingers(hlBatchMakeFingers(scene.get(), &settings, 1), &hlBatchDeleteFingers);
   Results results(2);
   const HLbatchResult at = results.pointers();
