@@ -33,8 +33,8 @@ std::optional<double> southOf(const ModelFile& file) {
 }
 
 struct EsriHeader {
-  std::optional<double> columns, rows;
-  double east = 0, south = 0, missing = -9999;
+  std::optional<double> columns, rows, east, south;
+  double missing = -9999;
 };
 
 // Reads up to the first word that is a number where a key should be, which is the first sample.
@@ -125,11 +125,12 @@ void readEsriGrid(const ModelFile& file, HeightSink& sink) {
   double first = readEsriHeader(words, header);
   const GridSize size{sideOf(header.columns, "ncols"), sideOf(header.rows, "nrows"), SampleKind::kFloat32};
   const auto sound = [](double step) { return std::isfinite(step) && step > 0; };
-  if (!sound(header.east) || !sound(header.south)) throw Error("says no cellsize that could be");
+  if (!header.east || !header.south) throw Error("its header lacks cellsize");
+  if (!sound(*header.east) || !sound(*header.south)) throw Error("says no cellsize that could be");
   // A sample has a digit, and a blank before it. Of few samples the first that is none is reported instead.
   constexpr std::size_t kFew = std::size_t{1} << 20;
   if (size.samples() > kFew && std::filesystem::file_size(file.path) / 2 < size.samples()) throw Error(kEndsEarly);
-  sink.header({size, header.missing, uprightFrame(size, header.east, header.south, 1)});
+  sink.header({size, header.missing, uprightFrame(size, *header.east, *header.south, 1)});
   std::vector<float> row(size.columns);
   for (std::uint32_t j = 0; j < size.rows; ++j) {
     for (std::uint32_t i = 0; i < size.columns; ++i)

@@ -9,6 +9,7 @@
 #include "scene/append_part.h"
 #include "scene/iso_shape.h"
 #include "scene/split_model.h"
+#include "surfaces/height_field.h"
 #include "surfaces/iso_surface.h"
 #include "surfaces/point_cloud.h"
 
@@ -31,6 +32,15 @@ void scaleJoint(JointSpec& joint, double factor, const Vec3& offset) {
   if (joint.kind != JointKind::kSlider && joint.kind != JointKind::kDistance) return;
   for (double* length : {&joint.along.low, &joint.along.high, &joint.along.rest}) *length *= factor;
   for (double& position : joint.along.table.position) position *= factor;
+}
+
+void requireDifferent(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto twice = std::adjacent_find(values.begin(), values.end());
+  if (twice == values.end()) return;
+  std::ostringstream text;
+  text << "two of its surfaces would be at iso " << *twice;
+  throw Error(text.str());
 }
 
 bool isOneModel(const SceneModel& scene) {
@@ -159,13 +169,18 @@ void scaleModel(SceneModel& scene, double factor) {
 }
 
 void scaleHeights(SceneModel& scene, double factor) {
-  if (scene.surfaces.empty()) throw Error("there is no height field in it, whose heights could be scaled");
-  for (SceneSurface& surface : scene.surfaces)
+  bool any = false;
+  for (SceneSurface& surface : scene.surfaces) {
+    if (dynamic_cast<const HeightField*>(surface.source.get()) == nullptr) continue;
+    any = true;
     surface.source = surface.source->placed(Vec3(1, factor, 1).asDiagonal(), Vec3::Zero());
+  }
+  if (!any) throw Error("there is no height field in it, whose heights could be scaled");
 }
 
 // Surfaces of one volume follow each other.
 void setIsoValues(SceneModel& scene, const std::vector<double>& values) {
+  requireDifferent(values);
   std::vector<SceneSurface> surfaces;
   bool any = false;
   for (auto one = scene.surfaces.begin(); one != scene.surfaces.end();) {

@@ -53,11 +53,11 @@ Model asOneModel(const SceneModel& scene);
 /// and accelerations stay as they are said.
 void scaleModel(SceneModel& scene, double factor);
 double fitModel(SceneModel& scene, double side);
-/// Scales the heights, y, of its surfaces that are not meshes. Throws hl::Error if it has none.
+/// Scales the heights, y, of its height fields. Throws hl::Error if it has none.
 void scaleHeights(SceneModel& scene, double factor);
 
 /// In the place of each volume's surfaces, one at each of these values, with the names and materials of those in order;
-/// values beyond them have those of the last. Throws hl::Error if it has no volume.
+/// values beyond them have those of the last. Throws hl::Error if it has no volume, or if two values are equal.
 void setIsoValues(SceneModel& scene, const std::vector<double>& values);
 /// The matter of each volume's surfaces is on this side of their values. Throws hl::Error if it has no volume.
 void setSolidSide(SceneModel& scene, SolidSide solid);

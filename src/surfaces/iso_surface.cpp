@@ -69,7 +69,12 @@ void requireSurface(const IsoSurface& surface) {
   std::ostringstream text;
   text << "there is no surface at iso " << surface.iso().value << ": its values are from " << range.low << " to "
        << range.high;
-  if (range.holds(surface.iso().value)) text << ", and no two neighbours have it between them";
+  const bool above = surface.iso().solid == SolidSide::kAbove;
+  if (surface.iso().value == (above ? range.low : range.high)) {
+    text << ", as all is matter then";
+  } else if (range.holds(surface.iso().value)) {
+    text << ", and no two neighbours have it between them";
+  }
   throw Error(text.str());
 }
 

@@ -370,8 +370,8 @@ TEST(SceneFile, VolumesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refusal(good + R"(, "iso": 2)"),
             "2: objects[0].volume: there is no surface at iso 2: its values are from 0 to 1");
   EXPECT_EQ(refusal(good + R"(, "iso": 0)"),
-            "2: objects[0].volume: there is no surface at iso 0: its values are from 0 to 1, and no two neighbours "
-            "have it between them");
+            "2: objects[0].volume: there is no surface at iso 0: its values are from 0 to 1, as all is matter "
+            "then");
   EXPECT_EQ(refusal(good + R"(, "iso": 0, "below": true)"), "");
   EXPECT_EQ(refusal(R"("size": [2, 2, 2], "values": [1, 1, 1, 1, 1, 1, 1, 1])"), "") << "it comes with a warning";
   EXPECT_EQ(refusal(R"("size": [2, 2, 2], "values": [7, 7, 7, 7, 7, 7, 7, 7], "missing": 7)"),

@@ -242,15 +242,16 @@ TEST(IsoSurface, AValueWithoutATriangleIsRefused) {
   const auto above = SolidSide::kAbove, below = SolidSide::kBelow;
   const auto steps = test::volumeOf({9, 9, 9}, [](const Vec3& at) { return at.x() < 3 ? 0 : at.x() < 6 ? 1 : 2; });
   const std::string range = ": its values are from 0 to 2",
-                    none = range + ", and no two neighbours have it between them";
+                    none = range + ", and no two neighbours have it between them",
+                    all = range + ", as all is matter then";
   for (const double iso : {0.001, 1.0, 1.999}) {
     EXPECT_EQ(refusal(steps, iso, above), "");
     EXPECT_EQ(refusal(steps, iso, below), "");
   }
-  EXPECT_EQ(refusal(steps, 0, above), "there is no surface at iso 0" + none);
+  EXPECT_EQ(refusal(steps, 0, above), "there is no surface at iso 0" + all);
   EXPECT_EQ(refusal(steps, 0, below), "");
   EXPECT_EQ(refusal(steps, 2, above), "");
-  EXPECT_EQ(refusal(steps, 2, below), "there is no surface at iso 2" + none);
+  EXPECT_EQ(refusal(steps, 2, below), "there is no surface at iso 2" + all);
   EXPECT_EQ(refusal(steps, -1, below), "there is no surface at iso -1" + range);
   const auto peak = test::volumeOf({9, 9, 9}, [](const Vec3& at) { return at == Vec3(4, 4, 4) ? 2 : 0; });
   EXPECT_EQ(refusal(peak, 2, above), "there is no surface at iso 2" + none) << "a point is no surface";

@@ -181,6 +181,8 @@ TEST(Volumes, TakeOtherIsoValues) {
   EXPECT_EQ(isoOf(0).value, 4);
   EXPECT_EQ(isoOf(0).solid, SolidSide::kBelow) << "another value has its matter on the same side";
   EXPECT_THROW(setIsoValues(scene, {1e9}), Error);
+  EXPECT_THROW(setIsoValues(scene, {4, 5, 4}), Error);
+  EXPECT_THROW(scaleHeights(scene, 2), Error) << "a volume has no heights";
   SceneModel mesh;
   EXPECT_THROW(setIsoValues(mesh, {1}), Error);
   EXPECT_THROW(setSolidSide(mesh, SolidSide::kBelow), Error);
