@@ -309,8 +309,8 @@ HL_API HLboolean hlIsObject(HLuint object);
 /** Makes the object that is being defined a rigid body, and sets one of its parameters (HL_BODY_MASS ..
  * HL_BODY_DYNAMIC_FRICTION, HL_BODY_RESTITUTION; unit, range and default there). Each call of the object is a body that
  * starts where the call's matrix places it, and goes on from where it is while that matrix and the call's place among
- * the calls of the object stay as they are: frames may draw it again and again. Drawn with another matrix it is there
- * at once, and starts anew. A scale is part of its shape.
+ * the calls of the object stay as they are: frames may draw it again and again. Drawn at another place or turn it is
+ * there at once, and starts anew. A scale is part of its shape: with another one it goes on.
  * The definition draws one piece of geometry, all with the same matrix, surface and name, and calls no object; the
  * server refuses a frame with another one, or with a body that has no thickness (HL_REFUSED). Bodies need a server
  * with at most 8 devices. HL_INVALID_OPERATION: no definition is open. HL_INVALID_ENUM: not such a parameter.
