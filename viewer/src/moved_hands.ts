@@ -17,6 +17,8 @@ import { add, length, sub, type Vec } from "./vec";
 const kGoals_Hz = 330;
 /** A finger this far from the goal that its hand was left with, m at the hand, has been moved by someone else. */
 const kElsewhere_D = 0.06;
+/** A finger this near to its proxy, m at the hand, has come up: some hundredths of a newton are left. */
+const kUp_D = 1e-4;
 
 export interface MovedHandsHooks {
   send(message: Uint8Array<ArrayBuffer>): void;
@@ -59,6 +61,8 @@ export class MovedHands {
   private hold_: Hold | undefined;
   /** Goals of hands that were let go of. */
   private readonly left_ = new Map<number, Vec>();
+  /** The hand that was let go of, and comes up to its proxy. */
+  private rising_: number | undefined;
   private buttons_ = 0;
   private sent_ms_ = -Infinity;
 
@@ -88,7 +92,7 @@ export class MovedHands {
   showHello(hello: Hello): void {
     this.devices_ = hello.devices.length > 0 ? hello.devices : hello.device ? [hello.device] : [];
     this.reported_ = this.devices_.length;
-    this.hold_ = undefined;
+    this.hold_ = this.rising_ = undefined;
     this.left_.clear();
     this.chosen_ = this.movable ? this.chosen_ : this.firstHand;
     this.together_ &&= this.several;
@@ -142,6 +146,7 @@ export class MovedHands {
       if (start !== undefined) along.set(device, sub(start, from));
     }
     this.hold_ = { goal: from, unsent: false, along };
+    this.rising_ = undefined;
     this.left_.delete(this.chosen_);
     return from;
   }
@@ -156,13 +161,14 @@ export class MovedHands {
 
   /** Sends the newest goals when it is time. Once per drawn frame. */
   frame(now_ms: number): void {
+    this.endRise();
     const { hold_: hold } = this;
     if (hold?.unsent !== true || now_ms - this.sent_ms_ < (1000 * (1 + hold.along.size)) / kGoals_Hz) return;
     this.sent_ms_ = now_ms;
     this.sendGoals(hold);
   }
 
-  /** One hand alone lets its force go, and stays where it is. Of several each keeps its goal. */
+  /** One hand alone lets its force go, and stays where its proxy is. Of several each keeps its goal. */
   letGo(): void {
     const { hold_: hold } = this;
     if (hold === undefined) return;
@@ -171,13 +177,14 @@ export class MovedHands {
     if (this.several) {
       this.left_.set(this.chosen_, hold.goal);
     } else {
-      this.hooks_.send(encodeRelease(this.chosen_));
+      this.leave(this.chosen_);
     }
   }
 
   /** Lets the force of every hand go: what they held has gone. */
   releaseAll(): void {
     this.letGo();
+    if (this.rising_ !== undefined) this.release(this.rising_);
     for (const device of this.left_.keys()) this.hooks_.send(encodeRelease(device));
     this.left_.clear();
   }
@@ -221,6 +228,32 @@ export class MovedHands {
   /** What moves when the chosen hand does. */
   private get moved(): number[] {
     return this.together_ ? this.simulated : [this.chosen_];
+  }
+
+  /** A released hand wants to stay where its finger is. Beneath a surface it comes up to the proxy first. */
+  private leave(device: number): void {
+    const hand = handOf(this.hooks_.state(), device);
+    if (hand?.proxy !== undefined && hand.touching && !hand.exploring) {
+      this.rising_ = device;
+      this.hooks_.send(encodeHandGoal(hand.proxy, device));
+    } else {
+      this.release(device);
+    }
+  }
+
+  private endRise(): void {
+    if (this.rising_ === undefined) return;
+    const hand = handOf(this.hooks_.state(), this.rising_);
+    const { finger, proxy } = hand ?? {};
+    const near_m = kUp_D * this.hooks_.worldPerHand();
+    const under = hand?.touching === true && finger !== undefined && proxy !== undefined &&
+      length(sub(finger, proxy)) > near_m;
+    if (!under) this.release(this.rising_);
+  }
+
+  private release(device: number): void {
+    this.rising_ = undefined;
+    this.hooks_.send(encodeRelease(device));
   }
 
   private startOf(device: number): Vec | undefined {

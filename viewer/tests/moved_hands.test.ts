@@ -127,6 +127,38 @@ describe("hands that the page moves", () => {
     expect(kinds()).toEqual(["handGoal 0", "release 0"]);
   });
 
+  it("alone come up to the proxy from beneath a surface, and are released there", () => {
+    hands.showHello(helloOf(true));
+    const pressing = (depth_m: number) => create(StateSchema, {
+      finger: { x: 0, y: -depth_m, z: 0 }, proxy: { x: 0, y: 0, z: 0 }, contacts: [{}],
+    });
+    state = pressing(0.006);
+    hands.grab();
+    goal({ x: 0, y: -0.05, z: 0 });
+    hands.letGo();
+    expect(goals().at(-1)).toEqual({ device: 0, x: 0, y: 0, z: 0 });
+    hands.frame(now_ms);
+    expect(kinds()).toEqual(["handGoal 0", "handGoal 0"]);
+    state = pressing(0.00004);
+    hands.frame(now_ms);
+    hands.frame(now_ms);
+    expect(kinds()).toEqual(["handGoal 0", "handGoal 0", "release 0"]);
+  });
+
+  it("alone are not released once they are grabbed again, and not led up while they explore", () => {
+    hands.showHello(helloOf(true));
+    state = create(StateSchema, { finger: { y: -0.006 }, proxy: {}, contacts: [{}] });
+    hands.grab();
+    hands.letGo();
+    hands.grab();
+    state = stateOf(1);
+    hands.frame(now_ms);
+    expect(kinds()).toEqual(["handGoal 0"]);
+    state = create(StateSchema, { finger: { y: -0.006 }, proxy: {}, contacts: [{}], exploring: true });
+    hands.letGo();
+    expect(kinds()).toEqual(["handGoal 0", "release 0"]);
+  });
+
   it("let their force go when what they held has gone", () => {
     hands.setTogether(true);
     hands.grab();
