@@ -97,6 +97,9 @@ test("surface controls reach the server whole, and what the server says moves th
   await openSection(page, "surface");
   const texts = () => page.locator("#surface-fold output").allTextContents();
   expect(await texts()).toEqual(["scene", "scene", "scene", "scene"]);
+  const shading = () => page.locator("#shading").evaluate((box: HTMLInputElement) =>
+    box.indeterminate ? "dashed" : box.checked ? "ticked" : "not ticked");
+  expect(await shading(), "the sphere of the scene is flat").toBe("not ticked");
   await page.fill("#surface-static-friction", "0.8");
   await page.fill("#surface-viscosity", "5");
   await page.check("#shading");
@@ -110,6 +113,7 @@ test("surface controls reach the server whole, and what the server says moves th
   await page.click("#surface-reset");
   await expect.poll(() => server.surfaces).toEqual(create(SurfacesSchema));
   await expect.poll(texts).toEqual(["scene", "scene", "scene", "scene"]);
+  expect(await shading()).toBe("not ticked");
 });
 
 test("a slider under the pointer stays where it is, whatever another page sets", async () => {

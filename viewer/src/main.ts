@@ -311,6 +311,7 @@ class App {
     this.panel_.showLayout(layout, store.counts());
     showEmptyHint(layout.placed.length === 0 && this.held_ === undefined);
     this.pointing_.layoutChanged();
+    this.surfacePanel_.showMaterials(layout.placed.map(({ materials }) => materials));
     this.volumePanel_.showVolumes(layout.volumes ?? []);
     if (layout.bounds !== undefined) {
       this.stage_.lowerFloor(layout.bounds.min.y);

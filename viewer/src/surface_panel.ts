@@ -7,7 +7,7 @@ import { kPresets, originOf, presetOf, settingsFor } from "./materials";
 import { kSendPeriod_ms, paced } from "./pace";
 import { Pending } from "./pending";
 import type { SettingsChange } from "./protocol";
-import { knobOf, settingsOf, type Knob, type SurfaceField, type SurfaceSettings } from "./surfaces";
+import { knobOf, settingsOf, shadingOf, type Knob, type SurfaceField, type SurfaceSettings } from "./surfaces";
 
 const kSceneDecides = "scene";
 
@@ -15,6 +15,7 @@ export class SurfacePanel {
   private readonly pending_ = new Pending<number | boolean | undefined>();
   private readonly sendSurfaces_: () => void;
   private said_: SurfaceSettings = {};
+  private materials_: readonly (readonly Surfaces[])[] = [];
   private knobs_: readonly Knob[] = [];
 
   constructor(send: (change: SettingsChange) => void) {
@@ -43,6 +44,12 @@ export class SurfacePanel {
   /** What the server says is set. */
   showSurfaces(surfaces: Surfaces | undefined): void {
     this.said_ = settingsOf(surfaces);
+    this.show();
+  }
+
+  /** The materials of each object of the scene. */
+  showMaterials(materials: readonly (readonly Surfaces[])[]): void {
+    this.materials_ = materials;
     this.show();
   }
 
@@ -141,9 +148,10 @@ export class SurfacePanel {
         part.classList.toggle("unset", value === undefined);
       }
     }
-    const shading = element<HTMLInputElement>("shading");
-    shading.checked = chosen.smooth ?? false;
-    shading.indeterminate = chosen.smooth === undefined;
+    const box = element<HTMLInputElement>("shading");
+    const shading = shadingOf(chosen.smooth, this.materials_);
+    box.checked = shading ?? false;
+    box.indeterminate = shading === undefined;
     element<HTMLInputElement>("textures").checked = chosen.textures ?? true;
   }
 }

@@ -50,3 +50,15 @@ export function settingsOf(message: Surfaces | undefined): SurfaceSettings {
     typeof value === "number" ? Number.isFinite(value) : typeof value === "boolean" && !(field === "textures" && value));
   return Object.fromEntries(entries);
 }
+
+/**
+ * Whether surfaces are felt with shading: as the user has set it, else as the materials of the scene have it. Undefined:
+ * some are and some are not, or it is not known.
+ */
+export function shadingOf(set: boolean | undefined, objects: readonly (readonly Surfaces[])[]): boolean | undefined {
+  if (set !== undefined || objects.length === 0 || objects.some((materials) => materials.length === 0)) {
+    return set;
+  }
+  const smooth = objects.flat().filter((material) => material.smooth === true).length;
+  return smooth === 0 ? false : smooth === objects.flat().length ? true : undefined;
+}

@@ -1,7 +1,7 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, test } from "vitest";
 import { QuantityInfoSchema, SurfacesSchema } from "../src/gen/hl_pb";
-import { knobOf, settingsOf } from "../src/surfaces";
+import { knobOf, settingsOf, shadingOf } from "../src/surfaces";
 
 describe("surface settings", () => {
   test("keep only what is set, zero and false too", () => {
@@ -35,4 +35,15 @@ describe("surface settings", () => {
     const strength = knobOf(create(QuantityInfoSchema, { field: "strengthN", unit: "N", usual: 10, words: "pressed harder; 0: never" }));
     expect([strength.text(0), strength.text(0.1)]).toEqual(["never", "0.1\u202fN"]);
   });
+});
+
+test("shading is what is felt, whether the user or the scene has said it", () => {
+  const [round, flat] = [create(SurfacesSchema, { smooth: true }), create(SurfacesSchema, { smooth: false })];
+  expect(shadingOf(undefined, [[round], [round, round]])).toBe(true);
+  expect(shadingOf(undefined, [[flat], [create(SurfacesSchema)]])).toBe(false);
+  expect(shadingOf(true, [[flat]])).toBe(true);
+  expect(shadingOf(false, [[round]])).toBe(false);
+  expect(shadingOf(undefined, [[round], [flat]])).toBeUndefined();
+  expect(shadingOf(undefined, [[round], []])).toBeUndefined();
+  expect(shadingOf(undefined, [])).toBeUndefined();
 });
