@@ -187,8 +187,25 @@ describe.skipIf(!kProgram)("a press on the model", () => {
       await pressModel(page, at);
       await secondsUntouched(at);
       await screenshot(page, `press_${at === low ? "low" : "high"}`);
+      // However much deeper: a goal beyond the middle of what is thin would let the proxy slip around it.
+      await page.mouse.wheel(0, -2000);
+      await states(page, 60);
+      await secondsUntouched(at);
       await page.mouse.up();
     }
+  });
+
+  test("that was deep leaves no force when the mouse lets go", async () => {
+    const at = await belly();
+    await pressModel(page, at);
+    await secondsUntouched(at);
+    await page.mouse.wheel(0, -2000);
+    await expect.poll(async () => (await felt(at)).force_N).toBeGreaterThan(1.5);
+    await page.mouse.up();
+    // The device has friction of its own.
+    await expect.poll(async () => (await felt(at)).force_N).toBeLessThan(0.1);
+    await states(page, 60);
+    expect((await felt(at)).force_N).toBeLessThan(0.1);
   });
 
   test("leaves no console errors, and asks nobody else", () => {

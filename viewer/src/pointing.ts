@@ -13,7 +13,7 @@ import { beside } from "./route";
 import { sectionOf, type Section, type Side } from "./section";
 import type { Stage } from "./stage";
 import { settingsOf } from "./surfaces";
-import { planWay, surfaceUnder, type AimScene } from "./touch_aim";
+import { planWay, steadyDepth, surfaceUnder, type AimScene } from "./touch_aim";
 import { length, sub, type Vec } from "./vec";
 
 /** A press this near to the proxy or the finger is meant for the hand. */
@@ -62,7 +62,10 @@ export class Pointing {
     if (hit === undefined || (!touching && this.isNearHand(x_px, y_px))) {
       return undefined;
     }
-    return new Press(this.worldPerHand, hit, (to) => this.wayTo(to));
+    return new Press(this.worldPerHand, hit, {
+      plan: (to) => this.wayTo(to),
+      steady: (pressed) => steadyDepth(this.aimScene(), pressed),
+    });
   }
 
   isNearHand(x_px: number, y_px: number): boolean {

@@ -3,7 +3,9 @@
 //
 //   goal = hit - depth n        force = depth / (1 / K + 1 / k_arm + 1 / k_pad)
 //
-// with the spring K of the servo and the springs of the arm and the fingerpad of the simulated hand: 200 and 300 N/m
+// A proxy on a surface that is curved away from it, as on a ball of radius R, would roll off from above a goal beyond the
+// middle: there is a deepest goal that holds it in place (touch_aim.ts), and wheel, Shift and second finger end there.
+// With the spring K of the servo and the springs of the arm and the fingerpad of the simulated hand: 200 and 300 N/m
 // for its light grip, 400 and 800 N/m for the firm one. K = 1000 N/m makes a depth of 12 mm 1.3 N and 2.5 N.
 
 import { beside, Walk } from "./route";
@@ -28,6 +30,8 @@ export const kPress_D = 0.012;
 const kThicknessPart = 0.4;
 /** But at least this, m at the hand, so that a force is felt on thin things too: 0.3 N by a light grip. */
 const kPressLeast_D = 0.003;
+/** What is pressed deeper goes to this part of the deepest goal that holds the proxy in place. */
+const kSteadyPart = 0.8;
 /** The hand comes to a place this far above the surface first, m at the hand. */
 export const kAbove_D = 0.01;
 /** It aims this far ahead on its way, m at the hand: then it goes at its full 0.3 m/s. */
@@ -75,20 +79,30 @@ export class Errand {
   }
 }
 
+/** What a press has to know of the scene. */
+export interface PressAim {
+  /** The way of the hand to a place. */
+  plan(to: Vec): Vec[];
+  /** The deepest goal beneath a place that holds the proxy there, m; infinite where any does. */
+  steady(hit: SurfaceHit): number;
+}
+
 export class Press {
   private readonly world_per_hand_: number;
-  private readonly plan_: (to: Vec) => Vec[];
+  private readonly aim_: PressAim;
   private hit_: SurfaceHit;
+  /** The deepest goal beneath what is pressed that holds the proxy in place, m. */
+  private steady_m_: number;
   private deeper_m_ = 0;
   /** Where the hand is to be while the pointer is beside the model. */
   private beside_: Vec | undefined;
   private way_: Errand | undefined;
 
-  /** `plan` finds the way of the hand to a place. */
-  constructor(worldPerHand: number, hit: SurfaceHit, plan: (to: Vec) => Vec[]) {
+  constructor(worldPerHand: number, hit: SurfaceHit, aim: PressAim) {
     this.world_per_hand_ = worldPerHand;
-    this.plan_ = plan;
+    this.aim_ = aim;
     this.hit_ = hit;
+    this.steady_m_ = aim.steady(hit);
     this.approach();
   }
 
@@ -104,15 +118,26 @@ export class Press {
 
   /** Where the hand has to want to be to touch what is pressed. */
   get pressed(): Vec {
+    const { hit_: hit } = this;
+    return beside(hit.point, scale(hit.normal, -1), this.depth_m + Math.min(this.deeper_m_, this.deepest_m));
+  }
+
+  /** Before it is pressed deeper. */
+  private get depth_m(): number {
     const { world_per_hand_: scaled, hit_: hit } = this;
-    const depth_m = Math.min(kPress_D * scaled, Math.max(kThicknessPart * hit.thickness_m, kPressLeast_D * scaled));
-    return beside(hit.point, scale(hit.normal, -1), depth_m + this.deeper_m_);
+    return Math.min(kPress_D * scaled, Math.max(kThicknessPart * hit.thickness_m, kPressLeast_D * scaled));
+  }
+
+  /** What it may be pressed deeper by. */
+  private get deepest_m(): number {
+    return Math.min(kPush_D * this.world_per_hand_, Math.max(0, kSteadyPart * this.steady_m_ - this.depth_m));
   }
 
   /** The pointer is over another point. */
   slide(hit: SurfaceHit): void {
     const jumped = length(sub(hit.point, this.beside_ ?? this.hit_.point)) > kJump_D * this.world_per_hand_;
     this.hit_ = hit;
+    this.steady_m_ = this.aim_.steady(hit);
     this.beside_ = undefined;
     if (jumped || this.coming) {
       this.approach();
@@ -126,8 +151,8 @@ export class Press {
   }
 
   deepen(distance_m: number): void {
-    const { world_per_hand_: scaled } = this;
-    this.deeper_m_ = Math.min(kPush_D * scaled, Math.max(kLift_D * scaled, this.deeper_m_ + distance_m));
+    const before_m = Math.min(this.deeper_m_, this.deepest_m);
+    this.deeper_m_ = Math.min(this.deepest_m, Math.max(kLift_D * this.world_per_hand_, before_m + distance_m));
   }
 
   /** What the hand has to want now, when the proxy is at `proxy`. */
@@ -152,6 +177,6 @@ export class Press {
 
   private approach(): void {
     const above = beside(this.hit_.point, this.hit_.normal, kAbove_D * this.world_per_hand_);
-    this.way_ = new Errand(this.world_per_hand_, this.plan_(above));
+    this.way_ = new Errand(this.world_per_hand_, this.aim_.plan(above));
   }
 }

@@ -16,6 +16,8 @@ const kRise_D = 0.015;
 const kWidth = 1.3;
 /** Near its ends the way may graze what is touched there: rays beside it start this many radii away. */
 const kEnds = 4;
+/** How far around a place its surface is looked at, m at the hand: the nearest may be a bump, the farthest beyond it. */
+const kRings_D = [0.002, 0.004, 0.008];
 /** A ray into what it has just met starts this many of the scene's proxy radii on. */
 const kSkip = 1e-3;
 
@@ -49,6 +51,41 @@ export function surfaceUnder({ model, proxyRadius_m, section }: AimScene, ray: R
   return { point, normal, thickness_m: back?.distance ?? Infinity, object, material };
 }
 
+/**
+ * The deepest goal beneath a place that holds the proxy there, m. At a place q beside p the goal g = p - D n pulls the
+ * proxy along the surface, across its normal m there, and that is back to p while
+ *
+ *   (g - q) . t >= 0,  t = d - (d . m) m,  d = p - q        so  D <= d . t / n . t,  on a ball of radius R  D <= R
+ *
+ * A ring of such places holds the proxy if all do, and one ring is enough: it comes no farther. Where no ring lies on
+ * the surface as a whole, as at an edge, it is the middle of what is pressed.
+ */
+export function steadyDepth(scene: AimScene, hit: SurfaceHit): number {
+  const depths = kRings_D.map((ring_D) => ringDepth(scene, hit, ring_D * scene.worldPerHand));
+  const whole = depths.filter((depth_m) => depth_m !== undefined);
+  return whole.length > 0 ? Math.max(...whole) : hit.thickness_m / 2;
+}
+
+/** Undefined: the surface does not reach around. */
+function ringDepth({ model }: AimScene, { point, normal }: SurfaceHit, ring_m: number): number | undefined {
+  let least_m = Infinity;
+  for (const direction of around(normal, 8)) {
+    const wall = model.cast(beside(point, normal, ring_m / 4), scale(direction, ring_m), 1);
+    if (wall === undefined) {
+      const above = add(beside(point, normal, ring_m), scale(direction, ring_m));
+      const met = model.cast(above, scale(normal, -2 * ring_m), 1);
+      if (met === undefined) {
+        return undefined;
+      }
+      const back = sub(point, met.point);
+      const along = sub(back, scale(met.normal, dot(back, met.normal)));
+      const away = dot(normal, along);
+      least_m = away > 0 ? Math.min(least_m, dot(back, along) / away) : least_m;
+    }
+  }
+  return least_m;
+}
+
 /** The proxy's way from `from`, where `off` leads away from what it touches, to `to`. */
 export function planWay(scene: AimScene, from: Vec, off: Vec, to: Vec): Vec[] {
   const { worldPerHand } = scene;
@@ -73,17 +110,18 @@ function freeWay({ model, proxyRadius_m }: AimScene): Free {
     const along = unit(sub(b, a));
     const [start, end] = [beside(a, along, kEnds * proxyRadius_m), beside(b, along, -kEnds * proxyRadius_m)];
     return way <= 2 * kEnds * proxyRadius_m ||
-      around(along).every((side) => {
+      around(along, 4).every((side) => {
         const offset = scale(side, kWidth * proxyRadius_m);
         return clear(add(start, offset), add(end, offset));
       });
   };
 }
 
-/** Four unit vectors at right angles to `along`. */
-function around(along: Vec): Vec[] {
+/** So many unit vectors at right angles to `along`. */
+function around(along: Vec, count: number): Vec[] {
   const other: Vec = Math.abs(along.x) < 0.7 ? { x: 1, y: 0, z: 0 } : { x: 0, y: 1, z: 0 };
   const a = unit(cross(along, other));
   const b = cross(along, a);
-  return [a, b, scale(a, -1), scale(b, -1)];
+  const turned = (angle: number) => add(scale(a, Math.cos(angle)), scale(b, Math.sin(angle)));
+  return Array.from({ length: count }, (_, i) => turned((2 * Math.PI * i) / count));
 }

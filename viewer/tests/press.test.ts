@@ -1,6 +1,6 @@
 // A press against a hand that goes where it is sent: it comes from above, goes as deep as the part allows, and follows.
 import { expect, test } from "vitest";
-import { kAbove_D, kPress_D, Press, type SurfaceHit } from "../src/press";
+import { kAbove_D, kPress_D, Press, type PressAim, type SurfaceHit } from "../src/press";
 import { length, sub, type Vec } from "../src/vec";
 
 const kUp: Vec = { x: 0, y: 0, z: 1 };
@@ -19,7 +19,8 @@ function settle(press: Press, from: Vec, now_ms = 0): Vec {
   return press.goal(hand, now_ms + 4000);
 }
 
-const straight = (from: Vec) => (to: Vec) => [from, to];
+/** Straight to a place whose goals hold the proxy down to `steady_m`. */
+const straight = (from: Vec, steady_m = Infinity): PressAim => ({ plan: (to) => [from, to], steady: () => steady_m });
 
 test("comes to a place above the surface first, then goes beneath it along the normal", () => {
   const from = { x: -1, y: 0, z: 0.5 };
@@ -52,6 +53,29 @@ test("slides along, changes its depth within limits, and follows the pointer bes
   expect(press.goal(from, 9000)).toEqual({ x: 0.2, y: 0, z: -0.1 });
   press.slide(hitAt(0.25));
   expect(press.coming).toBe(false);
+});
+
+test("goes no deeper than holds the proxy in place, and up again from there at once", () => {
+  const from = { x: 0, y: 0, z: 0.1 };
+  const press = new Press(kScale, hitAt(0), straight(from, 0.2));
+  press.deepen(100);
+  expect(press.pressed.z).toBeCloseTo(-0.16, 12);
+  press.deepen(-0.01);
+  expect(press.pressed.z).toBeCloseTo(-0.15, 12);
+  const thin = new Press(kScale, hitAt(0, 0.2), straight(from, 0.05));
+  thin.deepen(100);
+  expect(thin.pressed.z).toBeCloseTo(-0.08, 12);
+});
+
+test("a press that slides on is as deep as the next place holds", () => {
+  const from = { x: 0, y: 0, z: 0.1 };
+  const press = new Press(kScale, hitAt(0), { ...straight(from), steady: ({ point }) => (point.x > 0.05 ? 0.2 : Infinity) });
+  press.deepen(0.3);
+  expect(press.pressed.z).toBeCloseTo(-0.42, 12);
+  press.slide(hitAt(0.1));
+  expect(press.pressed.z).toBeCloseTo(-0.16, 12);
+  press.slide(hitAt(0));
+  expect(press.pressed.z).toBeCloseTo(-0.42, 12);
 });
 
 test("a drag that jumps to another part comes from above again", () => {
