@@ -12,6 +12,7 @@
 #include "io/load_scene_file.h"
 #include "io/load_sent.h"
 #include "monitor/event_log.h"
+#include "surfaces/point_cloud.h"
 
 namespace hl {
 
@@ -20,13 +21,22 @@ namespace {
 constexpr std::size_t kMaxWarnings = 5;  // that a page is sent
 
 std::string answerOf(const Snapshot& scene, std::span<const std::string> given, double world_per_device) {
-  std::uint64_t triangles = 0;
-  for (const Instance& instance : scene.instances) triangles += trianglesOf(*instance.shape);
+  // A surfel is four triangles: the user has given one point.
+  std::uint64_t triangles = 0, points = 0, primitives = scene.primitives;
+  for (const Instance& instance : scene.instances) {
+    if (const auto* cloud = dynamic_cast<const PointCloud*>(instance.shape->source.get()); cloud != nullptr) {
+      points += cloud->points()->size();
+      primitives -= instance.shape->elements() - cloud->points()->size();
+    } else {
+      triangles += trianglesOf(*instance.shape);
+    }
+  }
   std::string warnings;
   for (std::size_t i = 0; i < std::min(given.size(), kMaxWarnings); ++i)
     warnings += (i > 0 ? "," : "") + jsonString(given[i]);
-  return fmt::format(R"({{"name":{},"triangles":{},"primitives":{},"world_per_device":{:.6g},"warnings":[{}]}})",
-                     jsonString(scene.name), triangles, scene.primitives, world_per_device, warnings);
+  return fmt::format(
+      R"({{"name":{},"triangles":{},"points":{},"primitives":{},"world_per_device":{:.6g},"warnings":[{}]}})",
+      jsonString(scene.name), triangles, points, primitives, world_per_device, warnings);
 }
 
 // How a bare model is shaded, and a scene file by itself, where the user has not said it.

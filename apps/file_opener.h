@@ -23,8 +23,8 @@ class FileOpener {
   FileOpener(TouchServer& touch, HierarchyKind hierarchy, const CadMeshing& cad, bool smooth)
       : touch_(touch), hierarchy_(hierarchy), cad_(cad), smooth_(smooth) {}
 
-  /// Returns what it is now, as JSON: name, triangles, primitives, world_per_device, warnings. Throws hl::Error, one
-  /// line, and changes nothing. One call at a time.
+  /// Returns what it is now, as JSON: name, triangles, points, primitives, world_per_device, warnings. Throws
+  /// hl::Error, one line, and changes nothing. One call at a time.
   std::string open(int descriptor, const std::string& name);
   /// From now on nothing is opened, and what is under way ends soon. Any thread.
   void giveUp() { given_up_ = true; }

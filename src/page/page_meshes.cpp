@@ -11,6 +11,7 @@
 #include "page/wire_bytes.h"
 #include "scene/append_part.h"
 #include "session/state_messages.h"
+#include "surfaces/point_cloud.h"
 
 namespace hl {
 
@@ -84,6 +85,8 @@ std::string meshMessage(std::uint32_t number, const Shape& shape, const Drawn& d
   out.set_colours(bytesOf(drawn.colours));
   out.set_segments(bytesOf(model.segments));
   out.set_points(bytesOf(model.points));
+  if (const auto* cloud = dynamic_cast<const PointCloud*>(shape.source.get()); cloud != nullptr)
+    out.set_cloud_points(cloud->points()->size());
   if (!shape.bounds.empty()) {
     toProto(shape.bounds.min, *out.mutable_bounds_min());
     toProto(shape.bounds.max, *out.mutable_bounds_max());

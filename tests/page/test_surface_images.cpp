@@ -99,6 +99,7 @@ TEST(SurfaceImages, CloudsShowTheirColours) {
   EXPECT_EQ(coloured.mesh().colours(), wanted);
   EXPECT_EQ(coloured.mesh().positions().size(), 12 * 3 * sizeof(float));
   EXPECT_TRUE(plain.mesh().colours().empty());
+  EXPECT_EQ(plain.mesh().cloud_points(), 2u);
 }
 
 }  // namespace

@@ -235,7 +235,7 @@ class App {
   /** Also before there are states: the largest scenes take longest. */
   private showReceiving(now_ms: number): void {
     const coming = this.connection_.state === "live" && this.held_ === undefined && this.live_.coming;
-    const line = this.receiving_.line(coming, coming ? this.live_.store.trianglesAhead() : 0, now_ms);
+    const line = this.receiving_.line(coming ? this.live_.store.ahead() : undefined, now_ms);
     this.notices_.stand("receiving", line, "plain");
   }
 

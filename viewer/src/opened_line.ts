@@ -1,12 +1,14 @@
 // What is reported of a model that has been opened.
 
-import { formatCount, formatSi, kThinSpace, nounFor } from "./units";
+import { countedParts, formatCount, formatSi, kThinSpace, nounFor } from "./units";
 
 /** As the server answers it. */
 export interface Opened {
   readonly name: string;
   readonly triangles: number;
-  /** Everything that is felt: triangles, and what surfaces without any are made of. Absent: there is nothing else. */
+  /** Of clouds. Absent: there is none. */
+  readonly points?: number;
+  /** Everything that is felt: triangles, points, and what surfaces without any are made of. Absent: there is nothing else. */
   readonly primitives?: number;
   readonly world_per_device: number;
   readonly warnings: readonly string[];
@@ -20,8 +22,12 @@ export function openedLine(name: string, opened: Omit<Opened, "name">): string {
     `${formatSi(opened.world_per_device * 1e-3, "m")} of the scene.${warnings}`;
 }
 
-function sizeOf({ triangles, primitives = triangles }: Omit<Opened, "name">): string {
+function sizeOf({ triangles, points = 0, primitives = triangles + points }: Omit<Opened, "name">): string {
   const counted = (count: number, noun: string) => `${formatCount(count)} ${nounFor(count, noun)}`;
+  if (points > 0) {
+    const rest = primitives - triangles - points;
+    return countedParts([[triangles, "triangle"], [points, "point"], [rest, "other primitive"]]);
+  }
   if (primitives <= triangles) {
     return counted(triangles, "triangle");
   }

@@ -12,7 +12,9 @@ import type { Counts } from "./scene_store";
 import type { Side } from "./section";
 import type { ThemeChoice } from "./theme";
 import { describeEndings } from "./ticks_ended";
-import { formatCount, formatFixed, formatScale, formatShortCount, formatSi, kNoBreak, kThinSpace, kUnknown, nounFor } from "./units";
+import {
+  countedParts, formatCount, formatFixed, formatScale, formatShortCount, formatSi, kThinSpace, kUnknown,
+} from "./units";
 
 export interface PanelActions {
   settings(change: SettingsChange): void;
@@ -162,15 +164,13 @@ export class Panel {
       this.shown_ = layout.name;
       this.showName(layout.name);
     }
-    const parts: [number, string][] = [
+    const size = countedParts([
       [counts.objects > 1 ? counts.objects : 0, "object"],
       [counts.triangles, "triangle"],
       [counts.segments, "segment"],
       [counts.points, "point"],
-    ];
-    const present = parts.filter(([count]) => count > 0);
-    const texts = present.map(([count, noun]) => `${formatCount(count)}${kNoBreak}${nounFor(count, noun)}`);
-    setText("model-size", texts.join(", ") || "empty");
+    ]);
+    setText("model-size", size || "empty");
     // A black box has none.
     const radius_m = layout.proxyRadius_m > 0 ? layout.proxyRadius_m : undefined;
     setText("proxy-radius", formatSi(radius_m, "m"));

@@ -33,6 +33,8 @@ export interface Mesh {
   readonly looks: readonly SurfaceLook[];
   /** Red, green and blue of each vertex, 0..255 (sRGB); absent: it is drawn as others are. */
   readonly colours?: Uint8Array | undefined;
+  /** Of a cloud: its points; the triangles are discs at some or all of them. Absent: it is no cloud. */
+  readonly cloudPoints?: number | undefined;
   /** Material number of each triangle; empty: all have 0. */
   readonly triangleMaterials: Uint16Array;
   readonly bounds: Bounds | undefined;
@@ -87,6 +89,7 @@ export function checkMesh(mesh: SceneMesh): Mesh {
     points: indices(mesh.points, 1, vertices, "points"),
     ...checkLooks(mesh, vertices),
     colours: checkColours(mesh, vertices),
+    cloudPoints: mesh.cloudPoints > 0n ? Number(mesh.cloudPoints) : undefined,
     triangleMaterials: checkMaterials(mesh),
     bounds: boundsOf(mesh),
   };

@@ -10,6 +10,8 @@ export interface Counts {
   readonly points: number;
 }
 
+export type Ahead = Pick<Counts, "triangles" | "points">;
+
 export class SceneStore {
   private readonly meshes_ = new Map<number, Mesh>();
   private layout_: Layout | undefined;
@@ -70,13 +72,11 @@ export class SceneStore {
   }
 
   /** Of meshes that no object of the layout has: of a scene that is on its way. */
-  trianglesAhead(): number {
+  ahead(): Ahead {
     const placed = new Set(this.layout_?.placed.map(({ mesh }) => mesh));
-    let triangles = 0;
-    for (const mesh of this.meshes_.values()) {
-      triangles += placed.has(mesh.number) ? 0 : mesh.triangles.length / 3;
-    }
-    return triangles;
+    const coming = [...this.meshes_.values()].filter(({ number }) => !placed.has(number)).map(countsOf);
+    const sum = (of: keyof Ahead) => coming.reduce((total, mesh) => total + mesh[of], 0);
+    return { triangles: sum("triangles"), points: sum("points") };
   }
 
   /** Of everything in the layout, each object counted. */
@@ -84,12 +84,24 @@ export class SceneStore {
     const counts = { objects: this.layout_?.placed.length ?? 0, triangles: 0, segments: 0, points: 0 };
     for (const { mesh: number } of this.layout_?.placed ?? []) {
       const mesh = this.meshes_.get(number);
-      counts.triangles += (mesh?.triangles.length ?? 0) / 3;
-      counts.segments += (mesh?.segments.length ?? 0) / 2;
-      counts.points += mesh?.points.length ?? 0;
+      if (mesh !== undefined) {
+        const { triangles, segments, points } = countsOf(mesh);
+        counts.triangles += triangles;
+        counts.segments += segments;
+        counts.points += points;
+      }
     }
     return counts;
   }
+}
+
+/** The triangles of a cloud are how its points are drawn. */
+function countsOf({ triangles, segments, points, cloudPoints }: Mesh): Omit<Counts, "objects"> {
+  return {
+    triangles: cloudPoints === undefined ? triangles.length / 3 : 0,
+    segments: segments.length / 2,
+    points: cloudPoints ?? points.length,
+  };
 }
 
 function poseAt(poses: Float32Array, i: number): Float32Array {

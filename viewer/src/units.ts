@@ -89,3 +89,9 @@ export function formatScale(worldPerDevice: number | undefined): string {
   }
   return `${formatSi(worldPerDevice * 1e-3, "m")} per mm`;
 }
+
+/** "3 objects, 1 200 triangles": what there is of something. */
+export function countedParts(parts: readonly (readonly [count: number, noun: string])[]): string {
+  const present = parts.filter(([count]) => count > 0);
+  return present.map(([count, noun]) => `${formatCount(count)}${kNoBreak}${nounFor(count, noun)}`).join(", ");
+}

@@ -17,3 +17,11 @@ test("where there are no triangles, or more than these, what is felt is counted"
   expect(line(1, 5)).toBe("a: 5 primitives, 1 of them a triangle");
   expect(line(1200, 5000)).toBe("a: 5\u202f000 primitives, 1\u202f200 of them triangles");
 });
+
+test("of clouds points are counted", () => {
+  const line = (triangles: number, points: number, primitives?: number) =>
+    openedLine("a", { triangles, points, primitives: primitives ?? triangles + points, world_per_device: 1, warnings: [] }).split(";")[0];
+  expect(line(0, 170_688)).toBe("a: 170\u202f688\u00a0points");
+  expect(line(1, 1)).toBe("a: 1\u00a0triangle, 1\u00a0point");
+  expect(line(0, 5, 8)).toBe("a: 5\u00a0points, 3\u00a0other primitives");
+});

@@ -78,3 +78,13 @@ test("what is there is counted as often as it is placed; meshes can be forgotten
   expect(store.counts().objects).toBe(0);
   expect(store.layout).toBeUndefined();
 });
+
+test("a cloud counts by its points, not by the discs that are drawn", () => {
+  const store = new SceneStore();
+  store.add({ ...mesh(1, 4000), cloudPoints: 7000 });
+  store.add(mesh(2, 12));
+  expect(store.ahead()).toEqual({ triangles: 12, points: 7000 });
+  store.setLayout(layout(1, [1, 1, 2], 0, 1, 2));
+  expect(store.counts()).toEqual({ objects: 3, triangles: 12, segments: 0, points: 14_000 });
+  expect(store.ahead()).toEqual({ triangles: 0, points: 0 });
+});
