@@ -8,7 +8,7 @@ export interface Opened {
   readonly triangles: number;
   /** Of clouds. Absent: there is none. */
   readonly points?: number;
-  /** Everything that is felt: triangles, points, and what surfaces without any are made of. Absent: there is nothing else. */
+  /** All that is felt: triangles, points, and what surfaces without any are made of. Absent: there is nothing else. */
   readonly primitives?: number;
   readonly world_per_device: number;
   readonly warnings: readonly string[];

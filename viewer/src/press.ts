@@ -3,8 +3,8 @@
 //
 //   goal = hit - depth n        force = depth / (1 / K + 1 / k_arm + 1 / k_pad)
 //
-// A proxy on a surface that is curved away from it, as on a ball of radius R, would roll off from above a goal beyond the
-// middle: there is a deepest goal that holds it in place (touch_aim.ts), and wheel, Shift and second finger end there.
+// A proxy on a surface that is curved away from it, as on a ball of radius R, would roll off from above a goal beyond
+// the middle: there is a deepest goal that holds it in place (touch_aim.ts), and wheel, Shift and second finger end there.
 // With the spring K of the servo and the springs of the arm and the fingerpad of the simulated hand: 200 and 300 N/m
 // for its light grip, 400 and 800 N/m for the firm one. K = 1000 N/m makes a depth of 12 mm 1.3 N and 2.5 N.
 

@@ -16,7 +16,7 @@ const kRise_D = 0.015;
 const kWidth = 1.3;
 /** Near its ends the way may graze what is touched there: rays beside it start this many radii away. */
 const kEnds = 4;
-/** How far around a place its surface is looked at, m at the hand: the nearest may be a bump, the farthest beyond it. */
+/** How far around a place its surface is looked at, m at the hand: the nearest may be a bump, the farthest too far. */
 const kRings_D = [0.002, 0.004, 0.008];
 /** A ray into what it has just met starts this many of the scene's proxy radii on. */
 const kSkip = 1e-3;

@@ -20,7 +20,9 @@ test("where there are no triangles, or more than these, what is felt is counted"
 
 test("of clouds points are counted", () => {
   const line = (triangles: number, points: number, primitives?: number) =>
-    openedLine("a", { triangles, points, primitives: primitives ?? triangles + points, world_per_device: 1, warnings: [] }).split(";")[0];
+    openedLine("a", {
+      triangles, points, primitives: primitives ?? triangles + points, world_per_device: 1, warnings: [],
+    }).split(";")[0];
   expect(line(0, 170_688)).toBe("a: 170\u202f688\u00a0points");
   expect(line(1, 1)).toBe("a: 1\u00a0triangle, 1\u00a0point");
   expect(line(0, 5, 8)).toBe("a: 5\u00a0points, 3\u00a0other primitives");

@@ -69,7 +69,8 @@ test("goes no deeper than holds the proxy in place, and up again from there at o
 
 test("a press that slides on is as deep as the next place holds", () => {
   const from = { x: 0, y: 0, z: 0.1 };
-  const press = new Press(kScale, hitAt(0), { ...straight(from), steady: ({ point }) => (point.x > 0.05 ? 0.2 : Infinity) });
+  const steady = ({ point }: SurfaceHit) => (point.x > 0.05 ? 0.2 : Infinity);
+  const press = new Press(kScale, hitAt(0), { ...straight(from), steady });
   press.deepen(0.3);
   expect(press.pressed.z).toBeCloseTo(-0.42, 12);
   press.slide(hitAt(0.1));

@@ -1,4 +1,4 @@
-// How deep a goal may be beneath a place so that the proxy stays there: on a ball, on a bar, and on a block near its edge.
+// How deep a goal may be beneath a place so that the proxy stays there: on a ball, a bar, and a block near its edge.
 import * as THREE from "three";
 import { expect, test } from "vitest";
 import { ModelView } from "../src/model_view";
