@@ -85,7 +85,9 @@ typedef struct HLbatchSettings {
 /** Writes what a scene is felt with where nothing else is wanted. NULL: nothing happens. */
 HL_API void hlBatchSettings(HLbatchSettings* settings);
 /** Sets one quantity of all surfaces: HL_STIFFNESS, HL_STATIC_FRICTION, HL_DYNAMIC_FRICTION, HL_VISCOSITY, HL_STRIBECK,
- * HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE or HL_STRENGTH, in the units of hlMaterial. */
+ * HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE or HL_STRENGTH, in the units of hlMaterial. HL_INVALID_VALUE: out of range,
+ * which is narrower than of hlMaterial: stiffness and compliance 0 .. 1, frictions 0 .. 10, viscosity 0 .. 1000,
+ * adhesion and strength 0 .. 100, the others 0 .. 1e9. */
 HL_API HLenum hlBatchSurface(HLbatchSettings* settings, HLenum quantity, HLdouble value);
 
 /* ---- Results --------------------------------------------------------------------------------------------------- */
