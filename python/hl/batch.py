@@ -186,19 +186,20 @@ class Scene:
 class Settings:
     """What a finger and its surfaces are like.
 
-    None leaves a quantity of the surface as the scene has it; a number is for all surfaces.
+    None leaves a quantity of the surface as the scene has it; a number is for all surfaces, and has a narrower range
+    than a scene's own, which goes to 1e9. Numbers are checked when the settings are used: InvalidValueError.
     """
 
     radius: float = 0.002  #: of the proxy, m, 1e-12 to 1e9
     spring: float = 1000.0  #: N/m, 1e-9 to 1e9: force = spring * (target - finger)
-    period: float = 0.001  #: s: between two steps of Fingers; trace takes it from its paths
+    period: float = 0.001  #: s, 1e-15 to 1e15: between two steps of Fingers; trace takes it from its paths
     smooth: Optional[bool] = None  #: shading by normals
     stiffness: Optional[float] = None  #: 0..1: the part of the spring that the surface uses
     static_friction: Optional[float] = None  #: mu_s, 0..10; below mu_d it counts as mu_d
     dynamic_friction: Optional[float] = None  #: mu_d, 0..10
     viscosity: Optional[float] = None  #: N s/m, 0..1000
-    stribeck: Optional[float] = None  #: m/s, >= 0
-    presliding: Optional[float] = None  #: N/m, >= 0
+    stribeck: Optional[float] = None  #: m/s, 0..1e9
+    presliding: Optional[float] = None  #: N/m, 0..1e9
     adhesion: Optional[float] = None  #: N, 0..100
     compliance: Optional[float] = None  #: m/N, 0..1: a spring of 1 / compliance in series with the servo's
     strength: Optional[float] = None  #: N, 0..100: pressed harder, a surface is pierced; 0: never

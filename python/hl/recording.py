@@ -29,7 +29,7 @@ class Recording:
     device: str
     servo_rate: float  #: Hz
     proxy_rate: float  #: Hz
-    black_box: bool  #: the seconds before a fault: steps only
+    black_box: bool  #: the seconds before a fault; ticks is empty where its scene could not be recorded, or has just changed
     fault: str  #: why, of a black box
     end: str  #: "stopped", or the limit that was reached; "" when the program was killed
     damage: str  #: what is wrong with the end of the file; "" for nothing

@@ -140,7 +140,8 @@ def _option(value: Any) -> Any:
 class Touch:
     """A conversation with a server, made by `connect`. Closes at the end of `with`.
 
-    When the conversation has ended, every call but `close` raises ConnectionLostError with the reason.
+    When the server has ended the conversation, every call but `close` raises ConnectionLostError with the reason; after
+    the program's own `close` it is InvalidOperationError.
     """
 
     def __init__(self, context: _hl.Context) -> None:
