@@ -30,12 +30,21 @@ configure_file(packaging/hl.pc.in ${PROJECT_BINARY_DIR}/hl.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/hlConfig.cmake ${PROJECT_BINARY_DIR}/hlConfigVersion.cmake
   DESTINATION ${cmake_folder} COMPONENT libhl-dev)
 install(FILES ${PROJECT_BINARY_DIR}/hl.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT libhl-dev)
-install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+# The documents have the places that they have in the sources, so that their links lead somewhere.
+install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT libhl-dev)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+install(FILES proto/hl.proto DESTINATION ${CMAKE_INSTALL_DOCDIR}/proto COMPONENT libhl-dev)
+install(DIRECTORY scenes/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes COMPONENT libhl-dev)
 install(FILES ${PROJECT_BINARY_DIR}/reference.html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
 install(DIRECTORY csharp DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
 install(FILES src/dds/ros2.idl DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT libhl-dev)
 install(FILES scenes/teapot_patches.h DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT libhl-dev)
+# CMAKE_INSTALL_PREFIX is that of the installation, which may be another than now.
+install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND \"${Python3_EXECUTABLE}\"
+  \"${PROJECT_SOURCE_DIR}/scripts/installed_links.py\"
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}\")" COMPONENT libhl-dev)
 
 install(TARGETS hl hld RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-tools)
 if(TARGET hl_cad_program)

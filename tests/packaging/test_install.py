@@ -99,6 +99,15 @@ class Installed(unittest.TestCase):
         self.assertIn("shows 1 triangle", run(folder / "c", env=environment))
         self.assertIn("1 triangle", run(folder / "cpp", env=environment))
 
+    def test_the_links_of_the_documents_lead_somewhere(self):
+        readme = next(self.prefix.glob("share/doc/*/README.md"))
+        documents = list(readme.parent.rglob("*.md"))
+        self.assertIn(readme.parent / "docs/calls.md", documents)
+        for document in documents:
+            text = re.sub(r"^```.*?^```$", "", document.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+            for target in re.findall(r"\]\(([^)#\s]+)", text):
+                self.assertTrue("://" in target or (document.parent / target).exists(), f"{document}: {target}")
+
     def test_the_examples_build_on_their_own(self):
         examples = next(self.prefix.glob("share/doc/*/examples"))
         build = self.folder("examples")
