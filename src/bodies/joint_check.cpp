@@ -12,12 +12,16 @@ namespace {
 // Of unit length and of right angles: what is left of a value that was written with six digits.
 constexpr double kUnit = 1e-5;
 
+// One that was given no limits has its length at the start as both.
+constexpr const char* kDistanceOfNone =
+    "its distance can only be 0: place its two anchors apart, or give it a limit high > 0";
+
 class JointChecker {
  public:
   explicit JointChecker(const Joint& joint) : joint_(joint) {}
 
   void demand(bool holds, const char* what) const {
-    if (!holds) throw Error("joint " + std::to_string(joint_.key) + ": " + what);
+    if (!holds) throw Error(what);
   }
   void bodies(const std::function<bool(std::uint64_t)>& is_body) const {
     demand(joint_.key != 0, "its key must be greater than 0");
@@ -35,7 +39,7 @@ class JointChecker {
   }
   void forces() const {
     demand(joint_.low <= joint_.high, "low must not exceed high");
-    demand(joint_.kind != JointKind::kDistance || joint_.high > 0, "a distance must have a limit high > 0");
+    demand(joint_.kind != JointKind::kDistance || joint_.high > 0, kDistanceOfNone);
     demand(std::isfinite(joint_.rest), "rest is not finite");
     for (const double value : {joint_.spring, joint_.damping, joint_.friction})
       demand(std::isfinite(value) && value >= 0, "spring, damping and friction must be finite and >= 0");
@@ -58,21 +62,34 @@ class JointChecker {
   const Joint& joint_;
 };
 
+void refuse(const Joint& joint, const std::string& fault) {
+  throw Error("joint " + std::to_string(joint.key) + ": " + fault);
+}
+
 }  // namespace
 
-void checkJoint(const Joint& joint, const std::function<bool(std::uint64_t)>& is_body) {
+std::string faultOfJoint(const Joint& joint, const std::function<bool(std::uint64_t)>& is_body) {
   const JointChecker checker(joint);
-  checker.bodies(is_body);
-  checker.frames();
-  checker.forces();
-  checker.table();
+  try {
+    checker.bodies(is_body);
+    checker.frames();
+    checker.forces();
+    checker.table();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void checkJoint(const Joint& joint, const std::function<bool(std::uint64_t)>& is_body) {
+  const std::string fault = faultOfJoint(joint, is_body);
+  if (!fault.empty()) refuse(joint, fault);
 }
 
 void checkJoints(std::span<const Joint> joints, const std::function<bool(std::uint64_t)>& is_body) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     checkJoint(joints[i], is_body);
-    JointChecker(joints[i]).demand(i == 0 || joints[i - 1].key < joints[i].key,
-                                   "joints must be sorted by key, each key once");
+    if (i > 0 && joints[i - 1].key >= joints[i].key) refuse(joints[i], "joints must be sorted by key, each key once");
   }
 }
 

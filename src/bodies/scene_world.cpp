@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "bodies/joint_check.h"
+#include "bodies/joint_start.h"
 #include "bodies/made_bodies.h"
 #include "bodies/mesh_parts.h"
 
@@ -67,19 +68,6 @@ std::vector<std::string> coverWarnings(const Snapshot& snapshot) {
   return warnings;
 }
 
-Joint jointOf(const JointSpec& spec, const Pose& start_a, const Pose& start_b) {
-  Joint joint = spec.kind == JointKind::kDistance ? distanceBetween(spec.anchor_W, spec.anchor_b_W, start_a, start_b)
-                                                  : jointAt(spec.kind, spec.anchor_W, spec.axis_W, start_a, start_b);
-  const JointForces as_it_stands = joint;  // of a distance
-  static_cast<JointForces&>(joint) = spec.along;
-  if (spec.kind == JointKind::kDistance && spec.along == JointForces{}) static_cast<JointForces&>(joint) = as_it_stands;
-  joint.key = spec.key;
-  joint.body_a = spec.body_a;
-  joint.body_b = spec.body_b;
-  joint.collide = spec.collide;
-  return joint;
-}
-
 namespace {
 
 Pose startOf(const Snapshot& snapshot, std::uint64_t key) {
@@ -89,24 +77,17 @@ Pose startOf(const Snapshot& snapshot, std::uint64_t key) {
   return {};
 }
 
-// The same joint, described from its other side: with its axis turned round the coordinate stays what it is.
-JointSpec turnedRound(JointSpec spec) {
-  std::swap(spec.body_a, spec.body_b);
-  if (spec.kind == JointKind::kDistance) std::swap(spec.anchor_W, spec.anchor_b_W);
-  spec.axis_W = -spec.axis_W;
-  return spec;
-}
-
-// A joint to what does not move is one to the world; one of two such things is none.
 void addJoints(const Snapshot& snapshot, World& world) {
   std::uint64_t place = 0;
+  const auto start = [&](std::uint64_t key) {
+    return world.has(key) ? std::optional(startOf(snapshot, key)) : std::nullopt;
+  };
   for (JointSpec spec : snapshot.mechanics.joints) {
     ++place;
     if (spec.key == 0) spec.key = place;
-    if (!world.has(spec.body_a)) spec = turnedRound(std::move(spec));
-    if (!world.has(spec.body_a)) continue;
-    if (!world.has(spec.body_b)) spec.body_b = 0;
-    world.joints.push_back(jointOf(spec, startOf(snapshot, spec.body_a), startOf(snapshot, spec.body_b)));
+    const std::optional<Joint> joint = steppedJoint(spec, start);
+    if (!joint) continue;
+    world.joints.push_back(*joint);
     try {
       checkJoint(world.joints.back(), [&](std::uint64_t number) { return world.has(number); });
     } catch (const Error& error) {

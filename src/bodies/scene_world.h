@@ -20,7 +20,4 @@ std::size_t partsIn(const Snapshot& snapshot);
 /// and what to do. Throws Error, with the name of the body. Allocates.
 std::vector<std::string> coverWarnings(const Snapshot& snapshot);
 
-/// The joint of two bodies that start there; `start_b` is the identity for the world.
-Joint jointOf(const JointSpec& spec, const Pose& start_a, const Pose& start_b);
-
 }  // namespace hl

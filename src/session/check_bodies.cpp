@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "bodies/joint_check.h"
+#include "bodies/joint_start.h"
 #include "bodies/made_bodies.h"
 #include "bodies/scene_world.h"
 

@@ -39,6 +39,8 @@ TEST(JointCheck, SaysWhichJointAndWhatIsWrong) {
   EXPECT_EQ(complaint([](Joint& joint) { joint.side_b = joint.axis_b; }), "joint 7: its side must be across its axis");
   EXPECT_EQ(complaint([](Joint& joint) { joint.anchor_a.x() = NAN; }), "joint 7: an anchor is not finite");
   EXPECT_EQ(complaint([](Joint& joint) { joint.low = NAN; }), "joint 7: low must not exceed high");
+  EXPECT_EQ(complaint([](Joint& joint) { joint.kind = JointKind::kDistance, joint.low = joint.high = 0; }),
+            "joint 7: its distance can only be 0: place its two anchors apart, or give it a limit high > 0");
   EXPECT_EQ(complaint([](Joint& joint) {
               joint.table = {{0, 0}, {1, 2}};
             }),
