@@ -198,8 +198,9 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   requireMemory(scene, options.scene, machineMemory_bytes());
   auto snapshot = makeSnapshot(std::move(scene), hierarchyOf(options));
   if (!options.opens_files && !(options.cad == CadMeshing{})) requireCad(*snapshot, options.scene);
+  const std::string file = options.scene + ":";  // which those of a scene file begin with, and a line
   for (const std::string& warning : warningsOf(*snapshot))
-    fmt::print(stderr, "{}: {}\n", printable(options.scene), printable(warning));
+    fmt::print(stderr, "{}\n", printable(warning.starts_with(file) ? warning : file + " " + warning));
   if (snapshot->primitives == 0) throw Error(options.scene + ": nothing in it can be touched");
   return snapshot;
 }

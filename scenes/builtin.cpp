@@ -144,6 +144,8 @@ bool isBuiltinSurface(const std::string& spec) {
   return name == kField || name == kScan || name == kCloud || name == kDepth || name == kSdf;
 }
 
+bool hasBuiltinBodies(const std::string& spec) { return spec == kSnaps || spec == kWorkshop; }
+
 bool isBuiltinScene(const std::string& spec) {
   return isBuiltinSurface(spec) || find(std::string_view(spec).substr(0, spec.find(':'))) != nullptr;
 }

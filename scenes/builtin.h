@@ -13,6 +13,9 @@ bool isBuiltinScene(const std::string& spec);
 /// Whether that scene has surfaces that are no meshes, and no model.
 bool isBuiltinSurface(const std::string& spec);
 
+/// Whether that scene is of several objects, some of them bodies.
+bool hasBuiltinBodies(const std::string& spec);
+
 /// Lists of the names, for help texts: of what is one model, and with those of several objects.
 #define HL_BUILTIN_MODELS "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N"
 inline constexpr const char* kBuiltinModels = HL_BUILTIN_MODELS;

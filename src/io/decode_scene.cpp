@@ -269,6 +269,9 @@ std::vector<Vec3> SceneDecoder::corners(const google::protobuf::RepeatedField<do
     const auto number = [&](int k) { return checked(in[i + k], -kMaxPlace_m, kMaxPlace_m, where); };
     points.emplace_back(number(0), number(1), number(2));
   }
+  const auto as_first = [&](const Vec3& point) { return point == points.front(); };
+  if (points.size() > 1 && std::all_of(points.begin(), points.end(), as_first))
+    fail(where, where + " of a line or curve must not all be the same: write one point once");
   return points;
 }
 
@@ -298,15 +301,21 @@ FieldSpec SceneDecoder::field(const proto::Field& in, const std::string& where) 
   field.points = corners(in.points(), where + ".points");
   field.normal = planeNormal(in.has_normal(), in.normal(), field.points.size(), where);
   field.reach_m = checked(in.reach(), kMinOfPlace, kMaxOfPlace, where + ".reach");
+  const auto leave_out = [&](bool given, const std::string& at) {
+    if (given) fail(at, at + " is nothing that a " + proto::FieldKind_Name(in.kind()) + " has: leave it out");
+  };
   const auto number = [&](bool wanted, double value, double most, const char* name) {
-    return wanted ? checked(value, kMinOfPlace, most, where + name) : checked(value, 0, 0, where + name);
+    if (!wanted) leave_out(value != 0, where + name);
+    return wanted ? checked(value, kMinOfPlace, most, where + name) : 0;
   };
   const bool drag = field.kind == FieldKind::kDrag, spring = field.kind == FieldKind::kSpring;
   const bool unlimited = spring && in.force_n() == 0;
   field.force_N = unlimited ? kMaxFieldForce_N : number(!drag, in.force_n(), kMaxFieldForce_N, ".forceN");
   field.stiffness_N_m = number(spring, in.stiffness_n_m(), kMaxFieldStiffness_N_m, ".stiffnessNM");
   field.damping_Ns_m = number(drag, in.damping_ns_m(), kMaxFieldDamping_Ns_m, ".dampingNsM");
-  if (field.kind == FieldKind::kConstant) field.direction = unit(in.direction(), where + ".direction");
+  const bool constant = field.kind == FieldKind::kConstant;
+  if (constant) field.direction = unit(in.direction(), where + ".direction");
+  leave_out(!constant && in.has_direction(), where + ".direction");
   return field;
 }
 

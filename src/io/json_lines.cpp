@@ -2,8 +2,10 @@
 
 #include <boost/json/basic_parser_impl.hpp>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -16,8 +18,14 @@ namespace {
 constexpr std::size_t kDeepest = 32;
 constexpr const char* kTwice = "\" is there twice in one object";
 
-// Follows the parser through the text; with a path to look for, notes the line of the last value whose own path is a
-// beginning of it, which is the value itself or the nearest around it.
+// Of a path that is looked for: the line of the last value whose own path is a beginning of it, which is the value
+// itself or the nearest around it; and the length of that path.
+struct FoundLine {
+  std::size_t line = 1, length = 0;
+};
+using FoundLines = std::map<std::string, FoundLine>;
+
+// Follows the parser through the text, and looks for paths if there are any.
 struct LineHandler {
   // NOLINTBEGIN(readability-identifier-naming): the names that Boost.JSON asks for
   using error_code = boost::json::error_code;
@@ -31,40 +39,39 @@ struct LineHandler {
   struct Level {
     std::string path;  // of the object or array
     bool array = false;
-    bool off = false;  // not on the way to the wanted path
+    bool off = false;  // not on the way to a wanted path
     std::size_t next = 0;
     std::set<std::string> names{};  // of an object, until one is there twice
   };
 
-  const std::string* wanted = nullptr;
-  std::size_t found = 1, found_length = 0;
+  FoundLines wanted;
   std::size_t line = 1;
   std::vector<Level> levels;
   std::string key, part;
   bool out_of_range = false;
   std::optional<std::string> twice;  // a name in one object
 
-  // Whether `path` is that of a value on the way to the wanted one.
-  bool leads(const std::string& path) const {
-    return wanted->starts_with(path) && (path.size() == wanted->size() || path.empty() ||
-                                         (*wanted)[path.size()] == '.' || (*wanted)[path.size()] == '[');
-  }
-  // The path of the value that begins now; left empty off the way to the wanted one.
+  // The path of the value that begins now; left empty off the way to all wanted ones.
   std::string enter() {
     if (levels.empty()) return {};
     Level& level = levels.back();
     const std::size_t index = level.next++;
-    if (wanted == nullptr || level.off) return {};
+    if (wanted.empty() || level.off) return {};
     if (level.array) return level.path + "[" + std::to_string(index) + "]";
     return level.path.empty() ? key : level.path + "." + key;
   }
+  // Whether `path` is that of a value on the way to a wanted one.
   bool note(const std::string& path) {
-    if (wanted == nullptr || (!levels.empty() && levels.back().off) || !leads(path)) return false;
-    if (path.size() >= found_length) {
-      found = line;
-      found_length = path.size();
+    if (!levels.empty() && levels.back().off) return false;
+    bool leads = false;
+    for (auto one = wanted.lower_bound(path); one != wanted.end() && one->first.starts_with(path); ++one) {
+      const std::string& whole = one->first;
+      const bool ends = path.empty() || whole.size() == path.size();
+      if (!ends && whole[path.size()] != '.' && whole[path.size()] != '[') continue;
+      leads = true;
+      if (path.size() >= one->second.length) one->second = {line, path.size()};
     }
-    return true;
+    return leads;
   }
   bool begin(bool array) {
     const std::string path = enter();
@@ -97,7 +104,7 @@ struct LineHandler {
     key = part;
     key.append(text.data(), text.size());
     part.clear();
-    if (wanted != nullptr || levels.back().names.insert(key).second) return true;
+    if (!wanted.empty() || levels.back().names.insert(key).second) return true;
     twice = key;
     error = boost::json::error::syntax;
     return false;
@@ -144,32 +151,45 @@ boost::json::parse_options deepest() {
   return options;
 }
 
+struct FollowedText {
+  LineHandler handler;
+  boost::json::error_code error;
+};
+
+FollowedText followed(std::string_view text, FoundLines wanted) {
+  boost::json::basic_parser<LineHandler> parser(deepest());
+  parser.handler().wanted = std::move(wanted);
+  const boost::json::error_code error = follow(text, parser);
+  return {std::move(parser.handler()), error};
+}
+
+FoundLines findLines(std::string_view text, const std::vector<std::string>& paths) {
+  FoundLines wanted;
+  for (const std::string& path : paths) wanted.try_emplace(path);
+  return wanted.empty() ? wanted : followed(text, std::move(wanted)).handler.wanted;
+}
+
 }  // namespace
 
 JsonLines::JsonLines(const std::string& before_line, std::string_view text) : text_(text) {
-  boost::json::basic_parser<LineHandler> parser(deepest());
-  const boost::json::error_code error = follow(text, parser);
+  const auto [handler, error] = followed(text, {});
   if (!error) return;
-  const std::string where = before_line + std::to_string(parser.handler().line) + ": ";
-  if (parser.handler().out_of_range) throw Error(where + "a number is out of range");
-  if (parser.handler().twice) throw Error(where + "the name \"" + shown(*parser.handler().twice) + kTwice);
+  const std::string where = before_line + std::to_string(handler.line) + ": ";
+  if (handler.out_of_range) throw Error(where + "a number is out of range");
+  if (handler.twice) throw Error(where + "the name \"" + shown(*handler.twice) + kTwice);
   if (error == boost::json::error::too_deep)
     throw Error(where + "values are nested deeper than " + std::to_string(kDeepest));
   throw Error(where + "this is not JSON: " + error.message());
 }
 
-std::size_t JsonLines::lineOf(const std::string& path) const {
-  boost::json::basic_parser<LineHandler> parser(deepest());
-  parser.handler().wanted = &path;
-  follow(text_, parser);
-  return parser.handler().found;
+std::vector<std::size_t> JsonLines::linesOf(const std::vector<std::string>& paths) const {
+  std::vector<std::size_t> lines;
+  lines.reserve(paths.size());
+  const FoundLines found = findLines(text_, paths);
+  for (const std::string& path : paths) lines.push_back(found.at(path).line);
+  return lines;
 }
 
-bool JsonLines::has(const std::string& path) const {
-  boost::json::basic_parser<LineHandler> parser(deepest());
-  parser.handler().wanted = &path;
-  follow(text_, parser);
-  return parser.handler().found_length == path.size();
-}
+bool JsonLines::has(const std::string& path) const { return findLines(text_, {path}).at(path).length == path.size(); }
 
 }  // namespace hl

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hl {
 
@@ -14,9 +15,9 @@ class JsonLines {
   /// one object.
   JsonLines(const std::string& before_line, std::string_view text);
 
-  /// Line of the value at a path such as "objects[2].material.stiffness", or of the nearest value around it; from 1.
-  /// Reads the text again: it is for errors.
-  std::size_t lineOf(const std::string& path) const;
+  /// Lines of the values at paths such as "objects[2].material.stiffness", or of the nearest values around them; from
+  /// 1. Reads the text again, once: it is for errors and warnings.
+  std::vector<std::size_t> linesOf(const std::vector<std::string>& paths) const;
   /// Whether there is a value at the path. Reads the text again.
   bool has(const std::string& path) const;
 

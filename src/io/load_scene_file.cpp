@@ -14,7 +14,6 @@
 #include "base/direction.h"
 #include "base/error.h"
 #include "base/plain_file.h"
-#include "bodies/mesh_body.h"
 #include "builtin.h"
 #include "io/decode_scene.h"
 #include "io/file_ending.h"
@@ -22,6 +21,7 @@
 #include "io/json_lines.h"
 #include "io/json_words.h"
 #include "io/load_image.h"
+#include "io/scene_mechanics.h"
 #include "io/scene_surfaces.h"
 #include "io/vec_messages.h"
 #include "scene/append_part.h"
@@ -68,6 +68,8 @@ class SceneFile {
         text_(readText(path)),
         lines_(place_, text_),
         decoder_([this](const std::string& where, const std::string& message) { fail(where, message); }),
+        mechanics_(decoder_, [this](const std::string& where,
+                                    const std::string& message) { said_.emplace_back(where, message); }),
         surfaces_(folder_, options_) {
     parse();
   }
@@ -76,12 +78,16 @@ class SceneFile {
 
  private:
   // Names from the file may hold anything; the message stays one line.
-  [[noreturn]] void fail(const std::string& where, std::string message) const {
+  std::string lineAt(std::size_t line, std::string message) const {
     std::replace_if(
         message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, '?');
-    throw Error(place_ + std::to_string(lines_.lineOf(where)) + ": " + message);
+    return place_ + std::to_string(line) + ": " + message;
+  }
+  [[noreturn]] void fail(const std::string& where, const std::string& message) const {
+    throw Error(lineAt(lines_.linesOf({where}).front(), message));
   }
   void parse();
+  [[noreturn]] void refuse(const std::string& where, const std::string& said) const;
   void checkFinite(const google::protobuf::Message& message, const std::string& where) const;
   void addTexture(Model& model, const proto::TextureImage& in, const std::string& where);
   Material materialOf(const proto::Material& in, const std::string& where) const;
@@ -97,11 +103,8 @@ class SceneFile {
   SnapList snapsOf(const proto::SceneObject& object, const Placement& placement, const std::string& where) const;
   FieldList fieldsOf(const proto::SceneObject& object, const Placement& placement, const std::string& where) const;
   SceneBody bodyOf(Model part, const proto::SceneObject& object, const std::string& where, const Model& whole) const;
-  void checkBodies(const SceneModel& scene) const;
   void checkPlaces(const SceneModel& scene) const;
-  std::uint64_t bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const;
-  void requireOfKind(const proto::Joint& in, const JointSpec& joint, const std::string& where) const;
-  void addJoints(SceneModel& scene) const;
+  void addSaid(Model& whole) const;
 
   const std::string path_;
   const std::string place_;  // what stands before the line's number in errors
@@ -110,6 +113,8 @@ class SceneFile {
   const std::string text_;
   const JsonLines lines_;
   const SceneDecoder decoder_;
+  std::vector<std::pair<std::string, std::string>> said_;  // places, and what is to be said of them
+  const SceneMechanics mechanics_;
   proto::Scene scene_;
   std::map<std::string, std::uint32_t> textures_;
   std::size_t texels_ = 0;  // of all textures
@@ -122,7 +127,8 @@ class SceneFile {
   std::vector<ReadFile> files_;  // read once, however many objects show them
 };
 
-// Protobuf's errors read "(objects[0].material) stifness: Cannot find field." or "(objects[0].file): invalid value 3".
+// Protobuf's errors read "(objects[0].material) stifness: Cannot find field." or "(objects[0].file): invalid value 3",
+// and "unit: Cannot find field." of the scene itself.
 void SceneFile::parse() {
   if (text_[text_.find_first_not_of(" \t\r\n")] != '{')
     fail("", "a scene file must be one object: {\"objects\": [..]}");
@@ -136,17 +142,22 @@ void SceneFile::parse() {
   message = message.substr(0, message.find('\n'));
   const std::size_t open = message.find('('), close = message.find(')');
   if (open != 0 || close == std::string::npos) {
-    const std::size_t colon = message.find(": Cannot find field");
+    const std::size_t colon = message.find(": ");
     if (colon == std::string::npos) fail("", message);
-    fail(message.substr(0, colon), message.substr(0, colon) + ": " + plainJsonWords(message.substr(colon + 2)));
+    refuse(message.substr(0, colon), message.substr(colon + 2));
   }
   std::string where = message.substr(1, close - 1);
   std::string rest = message.substr(close + 1);
   const std::size_t colon = rest.find(':');
   if (rest.starts_with(' ') && colon != std::string::npos) where += "." + rest.substr(1, colon - 1);
   const std::string said = colon == std::string::npos ? rest : rest.substr(colon + 1);
-  fail(where,
-       jsonPlace(where) + ": " + plainJsonWords(said.substr(std::min(said.size(), said.find_first_not_of(' ')))));
+  refuse(where, said.substr(std::min(said.size(), said.find_first_not_of(' '))));
+}
+
+// In the words of this file's users.
+void SceneFile::refuse(const std::string& where, const std::string& said) const {
+  const std::string words = plainJsonWords(said);
+  fail(where, where.empty() ? words : jsonPlace(where) + ": " + words);
 }
 
 // JSON may write "NaN" and "Infinity" as strings, and protobuf takes them for numbers.
@@ -356,9 +367,7 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
   placementOf(object.transform(), where + ".transform");  // refuses what flattens it
   placeModel(part, scaleOf(object.transform()));
   body.pose = poseOf(object.transform(), where + ".transform");
-  body.spec = decoder_.body(object.body(), where + ".body");
-  if (body.spec.fixed && (body.spec.velocity_m_s != Vec3::Zero() || body.spec.spin_rad_s != Vec3::Zero()))
-    fail(where + ".body", where + ".body: a fixed body has no velocityMS and no spinRadS");
+  body.spec = mechanics_.body(object, where);
   body.snaps = snapsOf(object, scaleOf(object.transform()), where);
   body.fields = fieldsOf(object, scaleOf(object.transform()), where);
   body.model = std::move(part);
@@ -367,28 +376,6 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
     list->clear();
   body.model.textures = ownTextures(body.model.materials.front(), whole);
   return body;
-}
-
-// Bodies are the last thing that is checked, as shape and mass are those of the final size.
-void SceneFile::checkBodies(const SceneModel& scene) const {
-  const auto moving =
-      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return !b.spec.fixed; });
-  if (moving > static_cast<std::ptrdiff_t>(kMaxBodies))
-    fail("objects", fmt::format("{} bodies can move, and at most {} may: set fixed of the others", moving, kMaxBodies));
-  std::size_t body = 0, parts = 0;
-  for (int i = 0; i < scene_.objects_size(); ++i) {
-    if (!scene_.objects(i).has_body()) continue;
-    const SceneBody& one = scene.bodies[body++];
-    const std::string where = pathOf("objects", i) + ".body";
-    try {
-      if (!one.spec.fixed) parts += hl::bodyOf(one.model, one.spec).shape.parts.size();
-    } catch (const Error& error) {
-      fail(where, where + ": " + error.what());
-    }
-    if (parts > kMaxBodies)
-      fail(where,
-           fmt::format("with {} the bodies that move have {} parts, and at most {} may", where, parts, kMaxBodies));
-  }
 }
 
 void SceneFile::checkPlaces(const SceneModel& scene) const {
@@ -406,46 +393,13 @@ void SceneFile::checkPlaces(const SceneModel& scene) const {
   check(field_points, kMaxSnapPoints, "points of fields");
 }
 
-// Numbers from 1, as a scene's joints have them.
-std::uint64_t SceneFile::bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const {
-  if (name.empty()) fail(where, where + " must name a body");
-  std::uint64_t found = 0;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].name != name) continue;
-    if (found != 0) fail(where, where + ": there are several bodies '" + name + "' in this scene");
-    found = i + 1;
-  }
-  if (found == 0) fail(where, where + ": there is no body '" + name + "' in this scene");
-  return found;
-}
-
-// A joint without a part of what its author wrote would move in another way.
-void SceneFile::requireOfKind(const proto::Joint& in, const JointSpec& joint, const std::string& where) const {
-  const auto require = [&](bool holds, const char* name, const char* what) {
-    if (!holds) fail(where + name, where + name + what);
-  };
-  const bool is_distance = joint.kind == JointKind::kDistance;
-  require(hasAxis(joint.kind) || !in.has_axis(), ".axis", ": only a hinge or slider has an axis");
-  require(is_distance || !in.has_anchor_b(), ".anchorB", ": only a distance has an anchorB");
-  require(!is_distance || joint.along.high > 0, ".high", " of a distance must be greater than 0");
-  require(!is_distance || !in.has_low() || in.low() >= 0, ".low", " of a distance must not be below 0");
-  const bool is_bare = joint.along == JointForces{};
-  require(hasCoordinate(joint.kind) || is_bare, "",
-          ": a ball or fixed joint has no coordinate: leave out low, high, rest, spring, damping, friction and table");
-}
-
-void SceneFile::addJoints(SceneModel& scene) const {
-  if (scene_.joints_size() > static_cast<int>(kMaxJoints)) fail("joints", "there are more than 1000 joints in it");
-  for (int i = 0; i < scene_.joints_size(); ++i) {
-    const proto::Joint& in = scene_.joints(i);
-    const std::string where = pathOf("joints", i);
-    JointSpec joint = decoder_.joint(in, where);
-    requireOfKind(in, joint, where);
-    joint.body_a = bodyNamed(in.body_a(), scene, where + ".bodyA");
-    if (!in.body_b().empty()) joint.body_b = bodyNamed(in.body_b(), scene, where + ".bodyB");
-    if (joint.body_a == joint.body_b) fail(where, where + " joins a body to itself");
-    scene.mechanics.joints.push_back(std::move(joint));
-  }
+// What is no error, with the line at which it is.
+void SceneFile::addSaid(Model& whole) const {
+  std::vector<std::string> places;
+  places.reserve(said_.size());
+  for (const auto& [where, message] : said_) places.push_back(where);
+  const std::vector<std::size_t> lines = lines_.linesOf(places);
+  for (std::size_t i = 0; i < said_.size(); ++i) whole.warnings.push_back(lineAt(lines[i], said_[i].second));
 }
 
 SceneModel SceneFile::build() {
@@ -482,9 +436,10 @@ SceneModel SceneFile::build() {
   }
   if (whole.materials.empty()) whole.materials.emplace_back();
   checkPlaces(scene);
-  addJoints(scene);
+  mechanics_.addJoints(scene_, scene);
   scaleModel(scene, units);
-  checkBodies(scene);
+  mechanics_.check(scene_, scene);
+  addSaid(whole);
   return scene;
 }
 

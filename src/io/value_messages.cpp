@@ -33,8 +33,9 @@ Vec3 at(const google::protobuf::RepeatedField<double>& list, int i) {
 void checkRanges(const std::string& what, std::initializer_list<FieldRange> fields) {
   for (const FieldRange& field : fields) {
     if (field.value >= field.least && field.value <= field.most) continue;
-    throw Error(fmt::format("{} makes no sense: {} is {}, not {} to {}", what, field.name, field.value, field.least,
-                            field.most));
+    const std::string up_to = field.most > field.least ? fmt::format(" to {}", field.most) : "";
+    throw Error(
+        fmt::format("{} makes no sense: {} is {}, not {}{}", what, field.name, field.value, field.least, up_to));
   }
 }
 

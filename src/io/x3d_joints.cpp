@@ -2,8 +2,12 @@
 
 #include <array>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
+
+#include "base/direction.h"
+#include "bodies/joint_start.h"
 
 namespace hl {
 
@@ -81,12 +85,18 @@ void JointsOfX3d::add(const X3dNode& node) {
   joint.anchor_W = fields.vec("anchorPoint", Vec3::Zero(), kFarthestX3d_m);
   if (joint.kind != JointKind::kBall) {
     const bool slider = joint.kind == JointKind::kSlider;
-    joint.axis_W = fields.vec("axis", slider ? Vec3(0, 1, 0) : Vec3(0, 0, 0), kFarthestX3d_m);
-    if (!(joint.axis_W.norm() > 0)) return fields.warn("is left out: it needs an axis");
+    const auto axis = unitOf(fields.vec("axis", slider ? Vec3(0, 1, 0) : Vec3(0, 0, 0), kFarthestX3d_m));
+    if (!axis) return fields.warn("is left out: it needs an axis");
+    joint.axis_W = *axis;
     setLimits(node, joint);
   }
   if (!setBodies(node, joint)) return;
   if (joint.kind == JointKind::kSlider) joint.anchor_W = scene_.bodies[joint.body_a - 1].pose.origin;
+  const auto start = [&](std::uint64_t body) {
+    return moves(body) ? std::optional(scene_.bodies[body - 1].pose) : std::nullopt;
+  };
+  if (const std::string fault = startFault(joint, start); !fault.empty()) return fields.warn("is left out: " + fault);
+  if (const std::string warning = startWarning(joint, start); !warning.empty()) fields.warn(warning);
   scene_.mechanics.joints.push_back(std::move(joint));
 }
 

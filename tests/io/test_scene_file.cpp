@@ -598,6 +598,8 @@ TEST(SceneFile, SnapsThatCannotBeAreRefusedByLine) {
   expect(R"({"points": [1, 2, 3], "capture": 1, "releaseN": -1})", "snaps[0].releaseN must be between");
   expect(R"({"points": [1, 2, 3], "normal": {}, "capture": 1, "releaseN": 1})", "normal must not be zero");
   expect(R"({"points": [1, 2, 3, 4, 5, 6], "normal": {"x": 1}, "capture": 1, "releaseN": 1})", "must be one point");
+  expect(R"({"points": [1, 2, 3, 1, 2, 3], "capture": 1, "releaseN": 1})",
+         "snaps[0].points of a line or curve must not all be the same: write one point once");
   std::string many;
   for (int i = 0; i < 65; ++i) many += R"({"points": [1, 2, 3], "capture": 1, "releaseN": 1},)";
   many.pop_back();
@@ -644,7 +646,13 @@ TEST(SceneFile, FieldsThatCannotBeAreRefusedByLine) {
   expect(R"({"points": [1, 2, 3], "forceN": 1})", "fields[0].reach must be between 1e-09 and 1e+09");
   expect(R"({"points": [1, 2, 3], "reach": 1})", "fields[0].forceN must be between 1e-09 and 1000");
   expect(R"({"points": [1], "reach": 1, "forceN": 1})", "fields[0].points must hold 3 numbers each");
-  expect(R"({"points": [1, 2, 3], "reach": 1, "forceN": 1, "dampingNsM": 1})", "dampingNsM must be between 0 and 0");
+  const std::string magnet = R"({"points": [1, 2, 3], "reach": 1, "forceN": 1, )";
+  expect(magnet + R"("dampingNsM": 1})", "fields[0].dampingNsM is nothing that a MAGNET has: leave it out");
+  expect(magnet + R"("direction": {"y": 1}})", "fields[0].direction is nothing that a MAGNET has: leave it out");
+  expect(R"({"kind": "DRAG", "points": [1, 2, 3], "reach": 1, "dampingNsM": 1, "forceN": 1})",
+         "fields[0].forceN is nothing that a DRAG has: leave it out");
+  expect(R"({"kind": "DRAG", "points": [1, 2, 3, 1, 2, 3], "reach": 1, "dampingNsM": 1})",
+         "fields[0].points of a line or curve must not all be the same: write one point once");
   expect(R"({"kind": "SPRING", "points": [1, 2, 3], "reach": 1})", "stiffnessNM must be between");
   expect(R"({"kind": "DRAG", "points": [1, 2, 3], "reach": 1, "dampingNsM": 101})", "dampingNsM must be between");
   expect(R"({"kind": "CONSTANT", "points": [1, 2, 3], "reach": 1, "forceN": 1})", "direction must not be zero");
@@ -757,6 +765,17 @@ TEST(SceneFile, AValueOfAnotherKindIsReportedWithWhatToWrite) {
             R"(:1: gravityMS2: -9.81 must be an object: {"x": .., "y": .., "z": ..})");
   EXPECT_EQ(fault(R"("body": {})", R"(, "joints": [{"kind": "HINGE", "axis": {"y": 1}}])"),
             ":1: joints[0].bodyA must name a body");
+}
+
+TEST(SceneFile, AValueOfTheSceneItselfIsReportedAsThoseOfItsObjects) {
+  const auto fault = [](const std::string& said) {
+    return afterFile(refusalOf("{\"objects\": [{\"builtin\": \"plane:2\"}],\n" + said + "}"));
+  };
+  EXPECT_EQ(fault(R"("units": [1])"), ":2: units: it must not be a list");
+  EXPECT_EQ(fault(R"("gravityMS2": [0, -9.81, 0])"), ":2: gravityMS2: it must not be a list");
+  EXPECT_EQ(fault(R"("units": {})"), ":1: one of its values must not be an object");
+  EXPECT_EQ(fault(R"("units": "mm")"), ":2: units: \"mm\" is not a number");
+  EXPECT_EQ(fault(R"("unit": 1)"), ":2: unit: there is no such name");
 }
 
 TEST(SceneFile, ANameThatIsThereTwiceIsRefusedAndNamed) {

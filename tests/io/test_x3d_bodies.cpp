@@ -291,6 +291,10 @@ TEST(X3dBodies, WhatIsLeftOutIsReported) {
            {joint + "<RigidBody USE='a' containerField='body2'/></BallJoint>", "joins nothing that moves"},
            {joint + "<RigidBody USE='b' containerField='body2'/></BallJoint>", "RigidBody 'b' is no body here"},
            {"<SingleAxisHingeJoint><RigidBody USE='a'/></SingleAxisHingeJoint>", "needs an axis"},
+           {"<SingleAxisHingeJoint DEF='h' axis='0 1 0' minAngle='0.5' maxAngle='1'><RigidBody USE='a'/>"
+            "</SingleAxisHingeJoint>",
+            "SingleAxisHingeJoint 'h': starts at 0 rad, outside its limits of 0.5 .. 1 rad, and stays there until "
+            "something moves it"},
            {"<SliderJoint minSeparation='2'><RigidBody USE='a'/></SliderJoint>", "has no limits"}}) {
     const SceneModel scene = withCubes(collection(body("DEF='a'") + nodes));
     EXPECT_EQ(scene.bodies.size(), 1u) << nodes;
