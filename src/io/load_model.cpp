@@ -124,6 +124,10 @@ SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
     return {};
   }
   SceneModel scene = coinReads(file.ending) ? SceneModel(parseWithCoin(file, report)) : parseWithAssimp(file, report);
+  if (file.ending == ".ply" && !file.mesh && isPlyOfListedPoints(file.path))
+    scene.model.warnings.emplace_back(
+        "its vertices have a list among their properties: they are the points of a mesh, and no cloud; save them "
+        "without lists for one");
   makeSound(scene.model);
   for (SceneBody& body : scene.bodies) makeSound(body.model);
   return scene;

@@ -77,6 +77,9 @@ bool readsClouds(const std::string& ending) { return ending != ".ply" && cloudRe
 std::string cloudAdvice(const std::string& ending) {
   if (ending == ".laz") return "is packed LAS, which cannot be read: unpack it, as in laszip -i a.laz -o a.las";
   if (ending == ".e57") return "is E57, which cannot be read: convert it to PLY or LAS, as CloudCompare does";
+  if (ending == ".txt" || ending == ".csv")
+    return "files ending in '" + ending +
+           "' cannot be read; a list of points, x y z on each line, can if it is renamed to end in .xyz";
   return {};
 }
 

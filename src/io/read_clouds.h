@@ -11,8 +11,10 @@ namespace hl {
 
 /// Whether a reader takes files of this ending (".las") as clouds. Of a .ply, isPlyOfPoints() decides.
 bool readsClouds(const std::string& ending);
-/// A PLY file whose header has vertices, and nothing that joins them.
+/// A PLY file whose header has vertices, without lists, and nothing that joins them.
 bool isPlyOfPoints(const std::string& path);
+/// The same of one whose vertices have lists among their properties, which no reader of clouds takes.
+bool isPlyOfListedPoints(const std::string& path);
 /// Empty, or what to do with a file of this ending that holds points but cannot be read.
 std::string cloudAdvice(const std::string& ending);
 

@@ -96,22 +96,38 @@ PlyPoints readPlyHeader(ByteFile& in) {
   throw Error(std::string(kNoPly) + "its header has no line end_header");
 }
 
+// Of points: it has vertices, and nothing joins them.
+struct PlyOfPoints {
+  bool points = false, lists = false;
+};
+
+PlyOfPoints pointsOfPly(const std::string& path) {
+  try {
+    ByteFile in(path);
+    PlyOfPoints ply;
+    for (const PlyElement& element : readPlyHeader(in).elements) {
+      const bool joins = element.name == "face" || element.name == "edge" || element.name == "tristrips";
+      if (joins && element.count > 0) return {};
+      if (element.name != "vertex" || element.count == 0) continue;
+      ply.points = true;
+      ply.lists = ply.lists || element.lists;
+    }
+    return ply;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 bool isPlyOfPoints(const std::string& path) {
-  try {
-    ByteFile in(path);
-    bool vertices = false;
-    for (const PlyElement& element : readPlyHeader(in).elements) {
-      const bool of_vertices = element.name == "vertex";
-      vertices = vertices || (of_vertices && element.count > 0 && !element.lists);
-      const bool joins = element.name == "face" || element.name == "edge" || element.name == "tristrips";
-      if (joins && element.count > 0) return false;
-    }
-    return vertices;
-  } catch (const Error&) {
-    return false;
-  }
+  const PlyOfPoints ply = pointsOfPly(path);
+  return ply.points && !ply.lists;
+}
+
+bool isPlyOfListedPoints(const std::string& path) {
+  const PlyOfPoints ply = pointsOfPly(path);
+  return ply.points && ply.lists;
 }
 
 // What comes before the vertices is passed over.

@@ -80,7 +80,11 @@ std::shared_ptr<const PrimitiveSource> SceneSurfaces::cloud(const proto::Cloud& 
   if (!cloud) {
     const SceneModel scene = named(in.builtin(), in.file());
     if (!scene.surfaces.empty()) cloud = std::dynamic_pointer_cast<const PointCloud>(scene.surfaces.front().source);
-    if (!cloud) throw Error((in.builtin().empty() ? in.file() : in.builtin()) + ": is no cloud of points");
+    if (!cloud) {
+      const std::vector<std::string>& said = scene.model.warnings;  // of a file that could be one
+      throw Error((in.builtin().empty() ? in.file() : in.builtin()) + ": is no cloud of points" +
+                  (said.empty() ? "" : ": " + said.front()));
+    }
   }
   return withLook(*cloud, in);
 }

@@ -315,25 +315,42 @@ std::size_t mergedOn(const CloudLattice& lattice, std::vector<Vec3> positions) {
   return different - static_cast<std::size_t>(std::unique(positions.begin(), positions.end()) - positions.begin());
 }
 
-// A lattice is as wide as all points together. Where most of them lie within a small part of it, it may be too coarse
-// for them: then the stray ones are at fault.
-void requireFineEnough(const CloudLattice& lattice, const std::vector<Vec3>& positions) {
+// The side of what a lattice has room for; points at one place need some too.
+double sideFor(const Box& bounds) {
+  constexpr double kLeast_m = 1e-6, kLeastPart = 1e-6;
+  return std::max({bounds.size().maxCoeff(), kLeast_m, kLeastPart * bounds.max.cwiseAbs().maxCoeff()});
+}
+
+std::string whyTooCoarse(const Box& bounds, const Bulk& bulk, const std::vector<Vec3>& positions) {
+  const double side = bounds.size().maxCoeff();
+  const Eigen::IOFormat plain(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", " ");
+  std::ostringstream text;
+  if (side < sideFor(bounds)) {
+    text << "and all of them lie within " << side << " m around " << bounds.centre().transpose().format(plain)
+         << ": check that they are in metres, and near the origin";
+    return text.str();
+  }
+  const auto distance = [&](const Vec3& p) { return p.allFinite() ? (p - bulk.middle).norm() : 0; };
+  const Vec3& stray = *std::max_element(positions.begin(), positions.end(),
+                                        [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+  text << "as the point " << stray.transpose().format(plain) << " lies so far from the rest, which is around "
+       << bulk.middle.transpose().format(plain) << "; remove the stray points";
+  return text.str();
+}
+
+// A lattice is as wide as all points together, but has some width in any case. Where most of them lie within a small
+// part of it, it may be too coarse for them: then the stray ones are at fault, or the unit or the place of all.
+void requireFineEnough(const CloudLattice& lattice, const std::vector<Vec3>& positions, const Box& bounds) {
   constexpr double kEnoughSteps = 1 << 20;  // across most of the points
   constexpr std::size_t kFew = 100;         // one in so many may be merged
   const Bulk bulk = bulkOf(positions);
   if (bulk.side >= kEnoughSteps * lattice.step[0]) return;
   const std::size_t merged = mergedOn(lattice, positions);
   if (merged * kFew <= positions.size()) return;
-  const auto distance = [&](const Vec3& p) { return p.allFinite() ? (p - bulk.middle).norm() : 0; };
-  const Vec3& stray = *std::max_element(positions.begin(), positions.end(),
-                                        [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
-  const Eigen::IOFormat plain(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", " ");
   std::ostringstream text;
   text << merged << " of its " << positions.size() << " points would be one with others: they are kept in steps of "
-       << lattice.step[0] << " m, as the point " << stray.transpose().format(plain)
-       << " lies so far from the rest, which is around " << bulk.middle.transpose().format(plain)
-       << "; remove the stray points";
-  throw Error(text.str());
+       << lattice.step[0] << " m, ";
+  throw Error(text.str() + whyTooCoarse(bounds, bulk, positions));
 }
 
 }  // namespace
@@ -347,12 +364,10 @@ CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<s
   }
   if (bounds.empty()) throw Error(kNoPoints);
   if (!withinReach(bounds.min) || !withinReach(bounds.max)) throw Error("its points lie beyond 1e9 m");
-  // Points at one place need some lattice too.
-  const double extent = std::max({bounds.size().maxCoeff(), 1e-6, 1e-6 * bounds.max.cwiseAbs().maxCoeff()});
-  const double step = std::exp2(std::ceil(std::log2(extent / kSteps)));
+  const double step = std::exp2(std::ceil(std::log2(sideFor(bounds) / kSteps)));
   CloudInput input;
   input.lattice = {Vec3::Constant(step), (bounds.centre() / step).array().round() * step};
-  requireFineEnough(input.lattice, positions);
+  requireFineEnough(input.lattice, positions, bounds);
   input.points.reserve(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!positions[i].allFinite()) {

@@ -1,4 +1,5 @@
 // Files of points: what is in them comes out as the formats say, and what is broken gives one line.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,6 +13,7 @@
 #include "base/error.h"
 #include "io/file_ending.h"
 #include "io/load_model.h"
+#include "io/load_scene.h"
 #include "io/lzf.h"
 #include "io/read_clouds.h"
 #include "surfaces/point_cloud.h"
@@ -360,7 +362,7 @@ TEST(ReadClouds, Xyz) {
 
 std::string loadRefusal(const std::string& path) {
   try {
-    loadModelScene(path);
+    loadScene(path);
   } catch (const Error& error) {
     return error.what();
   }
@@ -401,8 +403,56 @@ TEST(ReadClouds, WhatCannotBeReadSaysWhatToDo) {
   const std::string laz = fileWith("a.laz", "LASF"), e57 = fileWith("a.e57", "ASTM-E57");
   EXPECT_EQ(loadRefusal(laz), laz + ": is packed LAS, which cannot be read: unpack it, as in laszip -i a.laz -o a.las");
   EXPECT_EQ(loadRefusal(e57), e57 + ": is E57, which cannot be read: convert it to PLY or LAS, as CloudCompare does");
+  for (const char* ending : {".txt", ".csv"}) {
+    const std::string table = fileWith(std::string("table") + ending, "0 0 0\n");
+    EXPECT_EQ(loadRefusal(table), table + ": files ending in '" + ending +
+                                      "' cannot be read; a list of points, x y z on each line, can if it is renamed to "
+                                      "end in .xyz");
+  }
   const std::string none = fileWith("none.xyz", "# nothing\n");
   EXPECT_EQ(loadRefusal(none), none + ": there are no points in it");
+}
+
+// Of 30 x 30 points, so far apart, in a file of text.
+std::string gridOfPoints(double apart, double from) {
+  std::string text;
+  for (int i = 0; i < 900; ++i)
+    text += fmt::format("{:.17g} {:.17g} 0\n", from + apart * (i % 30), from + apart * (i / 30));
+  return text;
+}
+
+TEST(ReadClouds, PointsThatAreTooNearEachOtherAreNotToldToBeStray) {
+  const std::string tiny = loadRefusal(fileWith("tiny.xyz", gridOfPoints(1e-19, 0)));
+  EXPECT_NE(tiny.find("899 of its 900 points would be one with others"), std::string::npos) << tiny;
+  EXPECT_NE(tiny.find("m, and all of them lie within 2.9e-18 m around 1.45e-18 1.45e-18 0: check that they are in "
+                      "metres, and near the origin"),
+            std::string::npos)
+      << tiny;
+  const std::string stray = loadRefusal(fileWith("stray.xyz", gridOfPoints(1e-6, 0) + "5e5 0 0\n"));
+  EXPECT_NE(stray.find("as the point 500000 0 0 lies so far from the rest"), std::string::npos) << stray;
+  EXPECT_TRUE(stray.ends_with("; remove the stray points")) << stray;
+}
+
+TEST(ReadClouds, PlyOfPointsWithListsIsAMeshThatSaysSo) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty list uchar int seen\nproperty float y\n"
+      "property float z\n";
+  const std::string points = fileWith("lists.ply", head + "end_header\n1 2 7 8 2 3\n4 0 5 6\n");
+  const std::string why =
+      "its vertices have a list among their properties: they are the points of a mesh, and no cloud; save them without "
+      "lists for one";
+  const SceneModel scene = loadModelScene(points);
+  EXPECT_EQ(scene.model.points.size(), 2U);
+  EXPECT_EQ(scene.model.warnings, std::vector<std::string>{why});
+  EXPECT_TRUE(loadModel(points).warnings.empty()) << "as a mesh it is what is asked for";
+  const std::string faces =
+      fileWith("faces.ply", head +
+                                "element face 1\nproperty list uchar int vertex_indices\nend_header\n1 0 2 3\n"
+                                "4 0 5 6\n2 0 1\n");
+  EXPECT_TRUE(loadModelScene(faces).model.warnings.empty());
+  const std::string in_scene =
+      loadRefusal(fileWith("listed.hl.json", R"({"objects": [{"cloud": {"file": "lists.ply"}}]})"));
+  EXPECT_NE(in_scene.find("lists.ply: is no cloud of points: " + why), std::string::npos) << in_scene;
 }
 
 // A file that was not made here, from the package assimp-testmodels.
