@@ -20,12 +20,13 @@ bool sameJoint(const JointSpec& a, JointSpec b) {
   return a == b;
 }
 
+// As a scene file says it, which the page may write: what has no effect is left out.
 void describeBody(const RigidBody& body, proto::PlacedMesh& placed) {
   const BodySpec& spec = body.spec;
   proto::Body& out = *placed.mutable_body();
   out.set_fixed(spec.fixed);
-  if (spec.mass_kg) out.set_mass_kg(*spec.mass_kg);
-  out.set_density_kg_m3(spec.density_kg_m3);
+  if (spec.mass_kg && !spec.fixed) out.set_mass_kg(*spec.mass_kg);
+  if (!spec.mass_kg && !spec.fixed) out.set_density_kg_m3(spec.density_kg_m3);
   out.set_shape(static_cast<proto::BodyShape>(spec.shape));
   out.set_static_friction(spec.surface.static_friction);
   out.set_dynamic_friction(spec.surface.dynamic_friction);
@@ -44,7 +45,7 @@ void describeJoint(const JointSpec& joint, proto::Joint& out) {
   if (hasAxis(joint.kind)) toProto(joint.axis_W, *out.mutable_axis());
   if (std::isfinite(along.low)) out.set_low(along.low);
   if (std::isfinite(along.high)) out.set_high(along.high);
-  out.set_rest(along.rest);
+  if (along.spring > 0) out.set_rest(along.rest);
   out.set_spring(along.spring);
   out.set_damping(along.damping);
   out.set_friction(along.friction);

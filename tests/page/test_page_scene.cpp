@@ -254,6 +254,7 @@ TEST_F(PageSceneTest, BodiesAndJointsAreInTheLayoutAsTheSceneHasThem) {
   const proto::SceneLayout& layout = messages.back().layout();
   EXPECT_EQ(layout.gravity_m_s2().z(), -3);
   EXPECT_EQ(layout.placed(0).body().mass_kg(), 0.1);
+  EXPECT_FALSE(layout.placed(0).body().has_density_kg_m3()) << "it has no effect beside the mass";
   EXPECT_EQ(layout.placed(0).body().shape(), proto::BOX);
   EXPECT_EQ(poseNumber(layout.placed(0).start(), 0, 3), 0.1f);
   ASSERT_EQ(layout.joints_size(), 1);

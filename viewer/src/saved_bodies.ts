@@ -64,7 +64,7 @@ function movedJoint(joint: Joint, a: Rigid, b: Rigid): Joint {
   if (joint.axis !== undefined) out.axis = create(Vec3Schema, vecOf(turned(b, tripleOf(joint.axis))));
   if (out.low !== undefined) out.low -= coordinate;
   if (out.high !== undefined) out.high -= coordinate;
-  out.rest -= coordinate;
+  if (out.spring > 0) out.rest -= coordinate;
   if (out.table !== undefined) out.table.position = out.table.position.map((each) => each - coordinate);
   return out;
 }

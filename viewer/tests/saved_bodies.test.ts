@@ -94,6 +94,7 @@ describe("joints in a scene file", () => {
     const [joint] = mechanicsOf(hinge, [kHere], [at(4)]).joints;
     expect(joint.low).toBeCloseTo(-4, 6);
     expect(joint.high).toBeCloseTo(1, 6);
+    expect(joint.rest, "it has no spring").toBeUndefined();
   });
 
   test("of a slider between two bodies count from the way that a has gone along the axis of b", () => {
