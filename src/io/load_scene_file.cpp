@@ -19,12 +19,12 @@
 #include "io/file_ending.h"
 #include "io/json_flags.h"
 #include "io/json_lines.h"
-#include "io/json_words.h"
 #include "io/load_image.h"
 #include "io/scene_mechanics.h"
 #include "io/scene_surfaces.h"
 #include "io/vec_messages.h"
 #include "scene/append_part.h"
+#include "wire/json_words.h"
 
 namespace hl {
 
@@ -87,7 +87,6 @@ class SceneFile {
     throw Error(lineAt(lines_.linesOf({where}).front(), message));
   }
   void parse();
-  [[noreturn]] void refuse(const std::string& where, const std::string& said) const;
   void checkFinite(const google::protobuf::Message& message, const std::string& where) const;
   void addTexture(Model& model, const proto::TextureImage& in, const std::string& where);
   Material materialOf(const proto::Material& in, const std::string& where) const;
@@ -127,8 +126,6 @@ class SceneFile {
   std::vector<ReadFile> files_;  // read once, however many objects show them
 };
 
-// Protobuf's errors read "(objects[0].material) stifness: Cannot find field." or "(objects[0].file): invalid value 3",
-// and "unit: Cannot find field." of the scene itself.
 void SceneFile::parse() {
   if (text_[text_.find_first_not_of(" \t\r\n")] != '{')
     fail("", "a scene file must be one object: {\"objects\": [..]}");
@@ -138,26 +135,8 @@ void SceneFile::parse() {
     if (!flag.empty()) fail(flag, flag + ": it must be true or false, without quotation marks");
     return;
   }
-  std::string message(status.message());
-  message = message.substr(0, message.find('\n'));
-  const std::size_t open = message.find('('), close = message.find(')');
-  if (open != 0 || close == std::string::npos) {
-    const std::size_t colon = message.find(": ");
-    if (colon == std::string::npos) fail("", message);
-    refuse(message.substr(0, colon), message.substr(colon + 2));
-  }
-  std::string where = message.substr(1, close - 1);
-  std::string rest = message.substr(close + 1);
-  const std::size_t colon = rest.find(':');
-  if (rest.starts_with(' ') && colon != std::string::npos) where += "." + rest.substr(1, colon - 1);
-  const std::string said = colon == std::string::npos ? rest : rest.substr(colon + 1);
-  refuse(where, said.substr(std::min(said.size(), said.find_first_not_of(' '))));
-}
-
-// In the words of this file's users.
-void SceneFile::refuse(const std::string& where, const std::string& said) const {
-  const std::string words = plainJsonWords(said);
-  fail(where, where.empty() ? words : jsonPlace(where) + ": " + words);
+  const JsonFault fault = faultOfJson(std::string(status.message()));
+  fail(fault.where, fault.line());
 }
 
 // JSON may write "NaN" and "Infinity" as strings, and protobuf takes them for numbers.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "wire/json_words.h"
 
 namespace hl {
 
@@ -15,8 +16,7 @@ inline proto::Implicit implicitOfJson(const std::string& json) {
   proto::Implicit result;
   const auto status = google::protobuf::util::JsonStringToMessage(json, &result);
   if (status.ok()) return result;
-  const std::string message(status.message());
-  throw Error("no JSON of an implicit surface: " + message.substr(0, message.find('\n')));
+  throw Error("no JSON of an implicit surface: " + faultOfJson(std::string(status.message())).line());
 }
 
 }  // namespace hl

@@ -315,6 +315,11 @@ TEST(Batch, BadInputIsRefusedWithALine) {
   EXPECT_EQ(hlBatchMakePoints(positions, nullptr, kOfNoArray, 0), nullptr);
   EXPECT_EQ(std::string(hlBatchError()), "hlBatchMakePoints: there are too many points");
 
+  EXPECT_EQ(hlBatchMakeImplicit(R"({"expression": {"sphere": {"radius": 1}, "box": {}}})"), nullptr);
+  EXPECT_EQ(std::string(hlBatchError()),
+            "hlBatchMakeImplicit: no JSON of an implicit surface: expression: of the values that exclude each other "
+            "there is another one already");
+
   const Scene scene = load("teapot");
   HLbatchSettings settings;
   hlBatchSettings(&settings);

@@ -1,7 +1,8 @@
-#include "io/json_words.h"
+#include "wire/json_words.h"
 
 #include <google/protobuf/descriptor.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <string_view>
@@ -57,6 +58,23 @@ std::string plainJsonWords(const std::string& said) {
   const std::size_t type = said.rfind(kFor);
   if (!said.starts_with(kInvalid) || type == said.npos) return said;
   return said.substr(kInvalid.size(), type - kInvalid.size()) + " " + needOf(said.substr(type + kFor.size()));
+}
+
+std::string JsonFault::line() const { return where.empty() ? words : jsonPlace(where) + ": " + words; }
+
+// They read "(objects[0].material) stifness: Cannot find field." or "(objects[0].file): invalid value 3", and "unit:
+// Cannot find field." of the outermost object.
+JsonFault faultOfJson(std::string message) {
+  message = message.substr(0, message.find('\n'));
+  const std::size_t close = message.find(')');
+  const bool placed = message.starts_with('(') && close != message.npos;
+  std::string where = placed ? message.substr(1, close - 1) : std::string();
+  const std::string rest = placed ? message.substr(close + 1) : " " + message;
+  const std::size_t colon = rest.find(placed ? ":" : ": ");
+  if (colon == rest.npos) return {where, placed ? rest : message};
+  if (rest.starts_with(' ')) where += (where.empty() ? "" : ".") + rest.substr(1, colon - 1);
+  const std::string said = rest.substr(colon + 1);
+  return {where, plainJsonWords(said.substr(std::min(said.size(), said.find_first_not_of(' '))))};
 }
 
 std::string jsonPlace(const std::string& place) {
