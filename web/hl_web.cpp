@@ -106,16 +106,25 @@ int hlWebLoadMesh(const char* name, const double* positions, std::uint32_t verti
 }
 
 const HlWebScene* hlWebScene() { return &session->scene(); }
+const char* hlWebName(int object) { return session->sent().name(object); }
+void hlWebDraw(int object, std::uint32_t triangles) { session->sent().draw(object, triangles); }
 const HlWebObject* hlWebObject(int object) { return &session->sent().object(object); }
 const double* hlWebPositions(int object) { return session->sent().model(object).positions.data()->data(); }
 const double* hlWebNormals(int object) { return session->sent().model(object).normals.data()->data(); }
 const std::uint32_t* hlWebTriangles(int object) { return session->sent().model(object).triangles.data()->data(); }
 const std::uint32_t* hlWebSegments(int object) { return session->sent().model(object).segments.data()->data(); }
+const std::uint8_t* hlWebColours(int object) { return session->sent().colours(object).data()->data(); }
 const double* hlWebStarts() { return session->sent().starts(); }
 const double* hlWebPoses() { return session->sent().posesAt(session->now_ns()); }
 const HlWebJoint* hlWebJoint(int joint) { return &session->sent().joint(joint); }
 const HlWebPlace* hlWebPlace(int place) { return &session->sent().place(place); }
 const double* hlWebPoints(int place) { return session->sent().points(place); }
+const HlWebVolume* hlWebVolume(int volume) { return &session->sent().volume(volume); }
+
+int hlWebIso(int volume, double value, int below) {
+  return tried([&] { session->setIso(volume, {value, below != 0 ? hl::SolidSide::kBelow : hl::SolidSide::kAbove}); });
+}
+
 void hlWebStep(int steps) { session->step(steps); }
 const HlWebState* hlWebState() { return &session->state(); }
 const char* hlWebFault() { return session->fault(); }

@@ -43,13 +43,20 @@ typedef struct {
 typedef struct {
   double force_max_N, stiffness_N_m, stiffness_max_N_m, damping_Ns_m, rate_Hz;
   double bounds_min[3], bounds_max[3], radius, world_per_device, gravity[3];
-  double objects, joints, snaps, fields; /**< numbers of them; places: snaps, then fields */
+  double objects, joints, snaps, fields, volumes; /**< numbers of them; places: snaps, then fields */
 } HlWebScene;
 
 typedef struct {
   double vertices, normals, triangles, segments; /**< numbers of them; normals: 0, or as vertices */
   double body;                                   /**< 0: it has no mass, 1: it is fixed, 2: it moves */
+  double coloured;                               /**< 1: each vertex has a colour */
 } HlWebObject;
+
+/** A surface of a volume: where its values are `iso`. */
+typedef struct {
+  double object, iso, low, high; /**< low, high: range of the values */
+  double below;                  /**< 1: the matter is where they are below iso */
+} HlWebVolume;
 
 /** As Joint of proto/hl.proto, in the world with the bodies at their start. */
 typedef struct {
@@ -80,17 +87,26 @@ int hlWebLoadMesh(const char* name, const double* positions, uint32_t vertices, 
 
 /** The next calls: only in a session. */
 const HlWebScene* hlWebScene(void);
+/** What the scene calls an object; empty: nothing. */
+const char* hlWebName(int object);
+/** What is drawn of an object that is no mesh: about `triangles`, or fewer. Before the next six calls, which are of
+ * that; nothing for a mesh. */
+void hlWebDraw(int object, uint32_t triangles);
 const HlWebObject* hlWebObject(int object);
 const double* hlWebPositions(int object);
 const double* hlWebNormals(int object);
 const uint32_t* hlWebTriangles(int object);
 const uint32_t* hlWebSegments(int object);
+const uint8_t* hlWebColours(int object); /**< red, green, blue of each vertex */
 /** 12 numbers for each object, 3 x 4 row by row: where it starts, and where it is now. */
 const double* hlWebStarts(void);
 const double* hlWebPoses(void);
 const HlWebJoint* hlWebJoint(int joint);
 const HlWebPlace* hlWebPlace(int place);
 const double* hlWebPoints(int place);
+const HlWebVolume* hlWebVolume(int volume);
+/** Another surface of a volume, at once. 0: failed, and the one before stays. */
+int hlWebIso(int volume, double value, int below);
 /** `steps` servo steps. */
 void hlWebStep(int steps);
 const HlWebState* hlWebState(void);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "put.h"
+#include "scene/iso_shape.h"
 
 namespace hl {
 
@@ -32,14 +33,51 @@ SentScene::SentScene(std::shared_ptr<const Snapshot> snapshot) : snapshot_(std::
   for (const Instance& instance : snapshot_->instances) addObject(instance);
   for (const JointSpec& joint : snapshot_->mechanics.joints) addJoint(joint);
   addPlaces();
+  addVolumes();
 }
 
 void SentScene::addObject(const Instance& instance) {
-  const Model& model = instance.shape->model;
-  objects_.push_back({static_cast<double>(model.positions.size()), static_cast<double>(model.normals.size()),
-                      static_cast<double>(model.triangles.size()), static_cast<double>(model.segments.size()),
-                      instance.body ? (instance.movesAsBody() ? 2.0 : 1.0) : 0.0});
+  drawn_.push_back({std::shared_ptr<const Model>(instance.shape, &instance.shape->model), {}});
+  objects_.emplace_back();
+  describe(objects_.size() - 1);
   appendPose(starts_, instance.body ? instance.body->start : instance.shownAt(0));
+}
+
+void SentScene::describe(std::size_t object) {
+  const Instance& instance = snapshot_->instances[object];
+  const Model& model = *drawn_[object].model;
+  objects_[object] = {static_cast<double>(model.positions.size()),
+                      static_cast<double>(model.normals.size()),
+                      static_cast<double>(model.triangles.size()),
+                      static_cast<double>(model.segments.size()),
+                      instance.body ? (instance.movesAsBody() ? 2.0 : 1.0) : 0.0,
+                      drawn_[object].colours.empty() ? 0.0 : 1.0};
+}
+
+const char* SentScene::name(int object) const {
+  const auto& label = snapshot_->instances.at(static_cast<std::size_t>(object)).label;
+  return label ? label->name.c_str() : "";
+}
+
+void SentScene::draw(int object, std::size_t triangles) {
+  const auto number = static_cast<std::size_t>(object);
+  const Shape& shape = *snapshot_->instances.at(number).shape;
+  if (!shape.source) return;
+  DrawnMesh drawn = shape.source->drawn(triangles);
+  Model model;
+  model.positions = std::move(drawn.positions);
+  model.normals = std::move(drawn.normals);
+  model.triangles = std::move(drawn.triangles);
+  drawn_[number] = {std::make_shared<const Model>(std::move(model)), std::move(drawn.colours)};
+  describe(number);
+}
+
+void SentScene::replace(std::shared_ptr<const Snapshot> snapshot, std::size_t object) {
+  snapshot_ = std::move(snapshot);
+  const auto& shape = snapshot_->instances.at(object).shape;
+  drawn_[object] = {std::shared_ptr<const Model>(shape, &shape->model), {}};
+  describe(object);
+  addVolumes();
 }
 
 void SentScene::addJoint(const JointSpec& joint) {
@@ -71,8 +109,15 @@ void SentScene::addPlaces() {
   }
 }
 
-const Model& SentScene::model(int object) const {
-  return snapshot_->instances.at(static_cast<std::size_t>(object)).shape->model;
+void SentScene::addVolumes() {
+  volumes_.clear();
+  for (std::size_t i = 0; i < snapshot_->instances.size(); ++i) {
+    const IsoSurface* const surface = isoSurfaceOf(snapshot_->instances[i]);
+    if (surface == nullptr) continue;
+    const ValueRange& range = surface->volume()->pyramid.range();
+    volumes_.push_back({static_cast<double>(i), surface->iso().value, range.low, range.high,
+                        surface->iso().solid == SolidSide::kBelow ? 1.0 : 0.0});
+  }
 }
 
 const double* SentScene::posesAt(std::int64_t now_ns) {

@@ -1,8 +1,10 @@
 #include "session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "base/error.h"
 #include "put.h"
 #include "touch/exploration.h"
 
@@ -85,6 +87,19 @@ void WebSession::setStiffness(double stiffness_N_m) {
   if (stiffness_N_m > 0) settings_.stiffness_N_m = std::min(stiffness_N_m, device_.info().stiffness_max_N_m);
 }
 
+void WebSession::setIso(int volume, const IsoChoice& choice) {
+  if (!std::isfinite(*choice.value)) throw Error("the value of a surface must be a number");
+  const auto object = static_cast<std::size_t>(sent_.volume(volume).object);
+  std::vector<Instance> instances = snapshot_->instances;
+  const std::uint64_t number = snapshot_->number + 1;
+  hl::setIso(instances[object], choice);
+  instances[object].replaced_in = number;
+  snapshot_ = makeSnapshot(std::move(instances), snapshot_->name, number, 0, snapshot_->mechanics);
+  sent_.replace(snapshot_, object);
+  scenes_.publish(snapshot_);
+  scenes_.dropBefore();
+}
+
 void WebSession::describeScene() {
   const DeviceInfo& info = device_.info();
   scene_.force_max_N = info.force_max_N;
@@ -101,6 +116,7 @@ void WebSession::describeScene() {
   scene_.joints = static_cast<double>(sent_.joints());
   scene_.snaps = static_cast<double>(snapshot_->snaps.size());
   scene_.fields = static_cast<double>(snapshot_->fields.size());
+  scene_.volumes = static_cast<double>(sent_.volumes());
 }
 
 const HlWebState& WebSession::state() {

@@ -5,7 +5,7 @@
 
 #include "device/simulated_device.h"
 #include "hl_web.h"
-#include "scene/snapshot.h"
+#include "scene/iso_shape.h"
 #include "sent_scene.h"
 #include "touch/ending_counts.h"
 #include "touch/snapshot_slot.h"
@@ -26,6 +26,8 @@ class WebSession {
   void setExplore(bool on) { exploring_ = on; }
   void setFirm(bool firm);
   void setStiffness(double stiffness_N_m);
+  /// Another surface of the volume of this number. Throws hl::Error, and changes nothing, for a value that is none.
+  void setIso(int volume, const IsoChoice& choice);
   void setLedger(LedgerMode mode) { settings_.ledger = mode; }
   MaterialOverride& surfaces() { return commands_.surfaces; }
 

@@ -209,6 +209,38 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
     await board.close();
   });
 
+  test.each(["field:terrain:10000", "points:sphere:500", "depth:table", "sdf:torus"])(
+    "draws what is no mesh: %s", async (scene) => {
+      const other = await browser.newPage({ ...kWindow, colorScheme: "dark" });
+      const heard = listen(other, origin);
+      await other.goto(`${origin}?scene=${scene}`);
+      await other.waitForFunction((name) => window.__hl.sceneName === name && window.__hl.samples > 0, scene);
+      expect(await other.evaluate(() => window.__hl.triangles)).toBeGreaterThan(100);
+      await screenshot(other, `web_${scene.replaceAll(":", "_")}`);
+      expect(heard).toEqual({ errors: [], foreign: [] });
+      await other.close();
+    });
+
+  test("a slider moves the surface of a volume, which is drawn where it is felt", async () => {
+    const scan = await browser.newPage({ ...kWindow, colorScheme: "dark" });
+    const heard = listen(scan, origin);
+    await scan.goto(`${origin}?scene=ct:phantom:64`);
+    await scan.waitForFunction(() => window.__hl.objects === 2 && window.__hl.samples > 0);
+    expect(await scan.textContent("label[for=iso-1] span")).toBe("Iso value of skin");
+    expect(await scan.inputValue("#iso-2")).toBe("370");
+    const drawn = () => scan.evaluate(() => window.__hl.triangles);
+    const before = await drawn();
+    await scan.evaluate(() => document.getElementById("explore")!.click());
+    await scan.waitForFunction(() => window.__hl.contacts > 0);
+    const height = await scan.evaluate(() => window.__hl.proxy!.y);
+    await scan.fill("#iso-1", "600");
+    await expect.poll(drawn).not.toBe(before);
+    await scan.waitForFunction((skin) => window.__hl.contacts > 0 && window.__hl.proxy!.y < skin - 1e-3, height);
+    await screenshot(scan, "web_scan");
+    expect(heard).toEqual({ errors: [], foreign: [] });
+    await scan.close();
+  });
+
   test("shows the teapot where the address names no scene, and says so", async () => {
     const other = await browser.newPage({ ...kWindow, colorScheme: "light" });
     await other.goto(`${origin}?scene=nosuch`);

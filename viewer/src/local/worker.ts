@@ -17,6 +17,8 @@ const kMaxSteps = 20;
 /** Steps between two samples of the plots. */
 const kSampleSteps = 4;
 const kRateWindow_ms = 1000;
+/** A surface that was changed is drawn in full when it has been the same for so long. */
+const kStill_ms = 1000;
 
 class Server {
   private readonly quantities_: readonly EngineQuantity[];
@@ -32,6 +34,8 @@ class Server {
   private counted_ = 0;
   private window_ms_ = performance.now();
   private rate_Hz_ = 0;
+  /** Of objects that are drawn coarsely. */
+  private readonly refining_ = new Map<number, ReturnType<typeof setTimeout>>();
 
   constructor(private readonly module_: Module) {
     this.quantities_ = parseQuantities(module_.UTF8ToString(module_._hlWebQuantities()));
@@ -40,6 +44,8 @@ class Server {
   /** `make` loads it, or throws and changes nothing. */
   show(name: string, make: (module: Module) => void): Loaded {
     make(this.module_);
+    this.refining_.forEach((timer) => clearTimeout(timer));
+    this.refining_.clear();
     this.apply(this.kept_);
     if (this.scene_.layout === 0) this.post(helloMessage(this.module_, name, this.quantities_));
     this.scene_.messages(this.module_, name).forEach((bytes) => this.post(bytes));
@@ -83,7 +89,23 @@ class Server {
       this.set({ explore: true });
     } else if (body.case === "settings") {
       this.set(body.value);
+    } else if (body.case === "iso") {
+      this.setIso(Number(body.value.surface) - 1, body.value.value, body.value.below);
     }
+  }
+
+  /** Values that are none, and surfaces of a scene that has gone, change nothing. */
+  private setIso(volume: number, value: number, below: boolean | undefined): void {
+    const volumes = this.scene_.volumes;
+    if (volume < 0 || volume >= volumes) return;
+    const n = new Numbers(this.module_, this.module_._hlWebVolume(volume));
+    const [object, , , , was] = n.list(5) as [number, number, number, number, number];
+    if (this.module_._hlWebIso(volume, value, below === undefined ? was : Number(below)) === 0) return;
+    this.scene_.changed(this.module_, object, true).forEach((bytes) => this.post(bytes));
+    clearTimeout(this.refining_.get(object));
+    this.refining_.set(object, setTimeout(() => {
+      this.scene_.changed(this.module_, object, false).forEach((bytes) => this.post(bytes));
+    }, kStill_ms));
   }
 
   private set(settings: Partial<Settings>): void {
