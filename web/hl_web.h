@@ -50,6 +50,7 @@ typedef struct {
   double vertices, normals, triangles, segments; /**< numbers of them; normals: 0, or as vertices */
   double body;                                   /**< 0: it has no mass, 1: it is fixed, 2: it moves */
   double coloured;                               /**< 1: each vertex has a colour */
+  double cloud_points;                           /**< of a cloud: its points; else 0 */
 } HlWebObject;
 
 /** A surface of a volume: where its values are `iso`. */

@@ -6,6 +6,7 @@
 
 #include "put.h"
 #include "scene/iso_shape.h"
+#include "surfaces/point_cloud.h"
 
 namespace hl {
 
@@ -18,6 +19,11 @@ void appendPose(std::vector<double>& out, const Pose& pose) {
     for (int column = 0; column < 3; ++column) out.push_back(pose.rotation(row, column));
     out.push_back(pose.origin[row]);
   }
+}
+
+double pointsOf(const Shape& shape) {
+  const auto* const cloud = dynamic_cast<const PointCloud*>(shape.source.get());
+  return cloud == nullptr ? 0 : static_cast<double>(cloud->points()->size());
 }
 
 template <typename Spec>
@@ -51,7 +57,8 @@ void SentScene::describe(std::size_t object) {
                       static_cast<double>(model.triangles.size()),
                       static_cast<double>(model.segments.size()),
                       instance.body ? (instance.movesAsBody() ? 2.0 : 1.0) : 0.0,
-                      drawn_[object].colours.empty() ? 0.0 : 1.0};
+                      drawn_[object].colours.empty() ? 0.0 : 1.0,
+                      pointsOf(*instance.shape)};
 }
 
 const char* SentScene::name(int object) const {

@@ -112,11 +112,11 @@ export class SentScene {
     module._hlWebDraw(object, most);
     const n = new Numbers(module, module._hlWebObject(object));
     const [vertices, normals, triangles, segments] = n.list(4) as [number, number, number, number];
-    const [body, coloured] = [n.next(), n.next()];
+    const [body, coloured, cloudPoints] = [n.next(), n.next(), BigInt(n.next())];
     this.triangles_ += triangles;
     const positions = floats(module, module._hlWebPositions(object), vertices);
     const bytes = encode({ case: "mesh", value: {
-      number: mesh, ...boundsOf(positions), positions: bytesOf(positions),
+      number: mesh, cloudPoints, ...boundsOf(positions), positions: bytesOf(positions),
       normals: bytesOf(floats(module, module._hlWebNormals(object), normals)),
       triangles: bytesOf(indices(module, module._hlWebTriangles(object), 3 * triangles)),
       segments: bytesOf(indices(module, module._hlWebSegments(object), 2 * segments)),
