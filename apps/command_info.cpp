@@ -126,6 +126,10 @@ void printMaterials(const Snapshot& snapshot) {
   if (materials > kMaxMaterials) fmt::print("and {} materials more\n", materials - kMaxMaterials);
 }
 
+std::string howOpenCounts(const Body& made) {
+  return made.shell_m > 0 ? fmt::format("a shell of {:.3g} mm", 1e3 * made.shell_m) : "a solid with its holes closed";
+}
+
 void printBody(const RigidBody& body, const std::shared_ptr<const Shape>& shape) {
   const BodySurface& surface = body.spec.surface;
   fmt::print("body {}: ", printable(body.name));
@@ -134,6 +138,7 @@ void printBody(const RigidBody& body, const std::shared_ptr<const Shape>& shape)
     const Body& made = *kept;
     fmt::print("{}, {:.4g} kg", kBodyShapeNames[static_cast<std::size_t>(body.spec.shape)], made.mass.mass_kg);
     if (made.shape.parts.size() > 1) fmt::print(", {} parts", made.shape.parts.size());
+    if (made.open_edges > 0) fmt::print(", open at {} edges: {}", made.open_edges, howOpenCounts(made));
     constexpr double kRounding_m = 1e-9;
     if (made.hull_error_m > kRounding_m) fmt::print(", the mesh is up to {:.3g} mm outside", 1e3 * made.hull_error_m);
     if (made.excess_m > kRounding_m) fmt::print(", parts reach up to {:.3g} mm beyond it", 1e3 * made.excess_m);

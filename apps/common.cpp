@@ -151,7 +151,7 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
 }
 
 std::vector<std::string> warningsOf(const Snapshot& snapshot) {
-  std::vector<std::string> warnings = snapshot.warnings, of_bodies = coverWarnings(snapshot);
+  std::vector<std::string> warnings = snapshot.warnings, of_bodies = bodyWarnings(snapshot);
   warnings.insert(warnings.end(), of_bodies.begin(), of_bodies.end());
   return warnings;
 }

@@ -19,6 +19,40 @@ constexpr std::size_t kMaxFragments = 4000, kMaxFragmentsOfOne = 4;
 // What it takes to make a piece, for each of its triangles, in looks.
 constexpr std::uint64_t kLooksToMake = 100;
 
+Vec3 acrossFace(const Triangle3& triangle) { return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]); }
+
+double areaOf(const CutSurface& surface) {
+  double area = 0;
+  for (const Triangle3& triangle : surface) area += acrossFace(triangle).norm() / 2;
+  return area;
+}
+
+// The planes of the largest triangles, each once.
+std::vector<HalfSpace> largestFaces(const CutSurface& surface, double rounding_m) {
+  constexpr std::size_t kFaces = 3;
+  std::vector<HalfSpace> faces;
+  const auto is_known = [&](const Triangle3& triangle) {
+    return std::any_of(faces.begin(), faces.end(), [&](const HalfSpace& face) {
+      return std::all_of(triangle.begin(), triangle.end(),
+                         [&](const Vec3& corner) { return std::abs(face.above(corner)) <= rounding_m; });
+    });
+  };
+  while (faces.size() < kFaces) {
+    Vec3 largest = Vec3::Zero();
+    const Triangle3* found = nullptr;
+    for (const Triangle3& triangle : surface) {
+      const Vec3 across = acrossFace(triangle);
+      if (!(across.squaredNorm() > largest.squaredNorm()) || is_known(triangle)) continue;
+      largest = across;
+      found = &triangle;
+    }
+    if (found == nullptr) break;
+    const Vec3 normal = largest.normalized();
+    faces.push_back({normal, normal.dot((*found)[0])});
+  }
+  return faces;
+}
+
 struct MeasuredPiece {
   CutPiece piece;
   HullExcess excess;
@@ -110,7 +144,25 @@ class Cutter {
       for (int i = 1; i < kPlaces; ++i)
         planes.push_back({normal, bounds.min[axis] + i * bounds.size()[axis] / kPlaces});
     }
+    if (rules_.is_shell) addBesideFaces(piece.piece, planes);
     return planes;
+  }
+
+  // Planes that cut a wall of a shell from what is around it, with rims that are no higher than it is thick.
+  void addBesideFaces(const CutPiece& piece, std::vector<HalfSpace>& planes) const {
+    for (const HalfSpace& face : largestFaces(piece.surface(), rounding_m_)) {
+      for (const double beside : {-measure_.thickness(), measure_.thickness()})
+        planes.push_back({face.normal, face.offset + beside});
+    }
+  }
+
+  // Of a solid the way through the air, of a shell its mean over the area: or thin strips would be cut off again and
+  // again, without air in them, and what is left would have as much as before.
+  double scoreOf(const CutPiece& one, const CutPiece& other) {
+    const HullExcess here = counted(measure_.roughly(one)), there = counted(measure_.roughly(other));
+    if (!rules_.is_shell) return here.air_m + there.air_m;
+    const double area = areaOf(one.surface()), other_area = areaOf(other.surface());
+    return (area * here.air_m + other_area * there.air_m) / (area + other_area);
   }
 
   // None, if no plane cuts the piece.
@@ -121,9 +173,8 @@ class Cutter {
     for (const HalfSpace& plane : planesFor(whole)) {
       const CutPiece one = half(whole.piece, plane), other = half(whole.piece, plane.turned());
       if (one.empty() || other.empty()) continue;
-      const HullExcess here = counted(measure_.roughly(one)), there = counted(measure_.roughly(other));
       const double uneven = std::abs(one.bounds().size().norm() - other.bounds().size().norm());
-      const double score = here.air_m + there.air_m + kOfBalance * uneven;
+      const double score = scoreOf(one, other) + kOfBalance * uneven;
       if (!(score < best)) continue;
       best = score;
       best_plane = plane;

@@ -3,12 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "bodies/mesh_holes.h"
 
 namespace hl {
 
@@ -25,19 +25,11 @@ void demandPositive(double value, const char* what) {
 
 // Each edge must be passed once in each direction for each time it is there.
 void demandClosed(std::span<const Vec3> vertices, Triangles triangles) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> there, back;
   for (const auto& corners : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t from = corners[i], to = corners[(i + 1) % 3];
-      if (from >= vertices.size()) throw Error("mass: a triangle has a corner that is no vertex");
-      there.emplace_back(from, to);
-      back.emplace_back(to, from);
-    }
+    if (*std::max_element(corners.begin(), corners.end()) >= vertices.size())
+      throw Error("mass: a triangle has a corner that is no vertex");
   }
-  std::sort(there.begin(), there.end());
-  std::sort(back.begin(), back.end());
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
-  std::set_difference(there.begin(), there.end(), back.begin(), back.end(), std::back_inserter(open));
+  const auto open = openEdges(triangles);
   if (!open.empty())
     throw Error("mass: the mesh is open at " + std::to_string(open.size()) +
                 " edges: close it, join its equal vertices, or use its hull or a box");
@@ -111,6 +103,31 @@ Solid solidOf(std::span<const Vec3> vertices, Triangles triangles) {
   const Vec3 centre = first / volume;
   if (volume < 0) second = -second;
   volume = std::abs(volume);
+  second -= volume * centre * centre.transpose();
+  return {volume, origin + centre, second.trace() * Mat3::Identity() - second};
+}
+
+// Each triangle is a prism of half the thickness on both of its sides, so its winding does not matter. Over a triangle
+// the integral of x x^T is A / 12 (the sum over its corners p p^T, and s s^T, s the sum of the corners).
+Solid solidOfSheet(std::span<const Vec3> vertices, Triangles triangles, double thickness_m) {
+  demandPositive(thickness_m, "the thickness");
+  const Vec3 origin = vertices.empty() ? Vec3(Vec3::Zero()) : vertices.front();
+  double volume = 0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+  for (const auto& corners : triangles) {
+    const Vec3 p = vertices[corners[0]] - origin, q = vertices[corners[1]] - origin, r = vertices[corners[2]] - origin;
+    const Vec3 across = (q - p).cross(r - p), sum = p + q + r;
+    if (across.isZero(0)) continue;
+    const Vec3 normal = across.normalized();
+    const double part = thickness_m * across.norm() / 2;
+    volume += part;
+    first += part / 3 * sum;
+    second += part / 12 * (p * p.transpose() + q * q.transpose() + r * r.transpose() + sum * sum.transpose());
+    second += part * thickness_m * thickness_m / 12 * normal * normal.transpose();
+  }
+  if (!(volume > 0)) throw Error("mass: the mesh has no area");
+  const Vec3 centre = first / volume;
   second -= volume * centre * centre.transpose();
   return {volume, origin + centre, second.trace() * Mat3::Identity() - second};
 }

@@ -38,6 +38,11 @@ struct Solid {
 Solid solidOf(std::span<const Vec3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
 /// Of a polyhedron with faces, without its radius, in the frame of its vertices.
 Solid solidOf(const Convex& polyhedron);
+/// What a mesh is made of as a shell of this thickness (m, > 0), half of it on both sides: its area times the
+/// thickness. Where triangles meet, their ends overlap or gape by a part of the thickness. It may be open; its
+/// triangles may face either way. Throws Error if it has no area.
+Solid solidOfSheet(std::span<const Vec3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles,
+                   double thickness_m);
 /// Of several, at least one, as one body. Where they overlap, it is as dense as both.
 Solid sumOf(std::span<const Solid> solids);
 /// Whether matter within these bounds can have such moments. Not those of a mesh that crosses itself: what faces inward

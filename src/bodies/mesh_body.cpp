@@ -107,6 +107,8 @@ void makeParts(const Model& model, const BodySpec& spec, Body& body) {
   body.shape = std::move(made.shape);
   body.hull_error_m = made.error_m;
   body.excess_m = made.excess_m;
+  body.open_edges = made.open_edges;
+  body.shell_m = made.shell_m;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "bodies/mesh_holes.h"
 #include "bodies/mesh_pieces.h"
 #include "bodies/nearly_convex.h"
 #include "bodies/piece_mesh.h"
@@ -69,14 +70,43 @@ std::vector<Part> withoutNested(std::vector<Part> parts) {
   return kept;
 }
 
-// None of a mesh that is open, or crosses itself so that it holds less than nothing somewhere.
-std::optional<Solid> heldBy(const PieceMesh& mesh) {
+// What a piece is made of.
+struct Matter {
+  std::optional<Solid> solid;  // none of a mesh that crosses itself so that it holds less than nothing somewhere
+  bool is_shell = false;
+  std::size_t open_edges = 0;
+};
+
+Matter matterOf(const PieceMesh& mesh, double thickness_m) {
+  const CappedMesh closed = capped(mesh);
+  Matter matter{std::nullopt, closed.isShell(), closed.open_edges};
   try {
-    const Solid solid = solidOf(mesh.vertices, mesh.triangles);
-    if (isMatterWithin(boundsOf(mesh), solid)) return solid;
-  } catch (const Error&) {  // it is open
+    const Solid solid = matter.is_shell ? solidOfSheet(mesh.vertices, mesh.triangles, thickness_m)
+                                        : solidOf(closed.vertices, closed.triangles);
+    if (matter.is_shell || isMatterWithin(boundsOf(mesh), solid)) matter.solid = solid;
+  } catch (const Error&) {  // it holds nothing
   }
-  return std::nullopt;
+  return matter;
+}
+
+// A part of how far the mesh reaches from the middle of its surface: of a mesh that is turned it stays the same, which
+// that of its bounds would not.
+double thicknessOfShells(const std::vector<PieceMesh>& meshes) {
+  constexpr double kThickness = 0.01;
+  Vec3 sum = Vec3::Zero();
+  double area = 0, reach = 0;
+  for (const PieceMesh& mesh : meshes) {
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+      const double part = (q - p).cross(r - p).norm();
+      sum += part / 3 * (p + q + r);
+      area += part;
+    }
+  }
+  for (const PieceMesh& mesh : meshes) {
+    for (const Vec3& vertex : mesh.vertices) reach = std::max(reach, (vertex - sum / area).norm());
+  }
+  return kThickness * reach;
 }
 
 // The mesh that reaches farthest is a body, whichever way it faces.
@@ -87,16 +117,20 @@ bool facesInward(const std::vector<PieceMesh>& meshes) {
 }
 
 // A piece of which no part is left, as it lies within others, does not count, but for a hollow, which is taken off.
-Solid solidOfAll(const std::vector<PieceMesh>& meshes, const std::vector<Part>& parts) {
+Solid solidOfAll(const std::vector<PieceMesh>& meshes, const std::vector<Part>& parts, MeshParts& made) {
   std::vector<std::vector<Solid>> of_piece(meshes.size());
   for (const Part& part : parts) of_piece[part.piece].push_back(part.solid);
   const bool inward = facesInward(meshes);
+  const double thickness_m = thicknessOfShells(meshes);
   std::vector<Solid> solids;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const std::optional<Solid> held = heldBy(meshes[i]);
+    const Matter matter = matterOf(meshes[i], thickness_m);
+    const std::optional<Solid>& held = matter.solid;
     if (!of_piece[i].empty()) {
       solids.push_back(held ? *held : sumOf(of_piece[i]));
-    } else if (held && meshes[i].is_turned != inward) {
+      made.open_edges += matter.open_edges;
+      if (matter.is_shell) made.shell_m = thickness_m;
+    } else if (held && !matter.is_shell && meshes[i].is_turned != inward) {
       solids.push_back({-held->volume_m3, held->centre_O, -held->inertia_m5});
     }
   }
@@ -104,12 +138,15 @@ Solid solidOfAll(const std::vector<PieceMesh>& meshes, const std::vector<Part>& 
 }
 
 // Of hollows that are larger than what is around them, the parts alone count.
-Solid solidOf(const std::vector<PieceMesh>& meshes, const std::vector<Part>& parts) {
+Solid solidOf(const std::vector<PieceMesh>& meshes, const std::vector<Part>& parts, MeshParts& made) {
   Box bounds;
   for (const PieceMesh& mesh : meshes) bounds.extend(boundsOf(mesh));
-  const Solid solid = solidOfAll(meshes, parts);
+  const Solid solid = solidOfAll(meshes, parts, made);
+  bounds.min.array() -= made.shell_m / 2;
+  bounds.max.array() += made.shell_m / 2;
   if (isMatterWithin(bounds, solid)) return solid;
   std::vector<Solid> solids;
+  solids.reserve(parts.size());
   for (const Part& part : parts) solids.push_back(part.solid);
   return sumOf(solids);
 }
@@ -170,7 +207,7 @@ MeshParts partsOfMesh(const Model& model) {
   if (meshes.empty()) throw Error("its mesh has no triangles, and so no parts: use its hull or a box");
   MeshParts made;
   std::vector<Part> parts = partsOf(meshes, kNearlyConvex * model.bounds().size().norm() / 2, made);
-  made.solid = solidOf(meshes, parts);
+  made.solid = solidOf(meshes, parts, made);
   std::vector<Convex> shapes;
   for (Part& part : parts) {
     Convex shape = moved(std::move(part.hull.shape), -made.solid.centre_O);

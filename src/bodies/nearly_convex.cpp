@@ -10,6 +10,7 @@
 #include "base/remembered.h"
 #include "bodies/convex_cuts.h"
 #include "bodies/mass.h"
+#include "bodies/mesh_holes.h"
 
 namespace hl {
 
@@ -17,8 +18,6 @@ namespace {
 
 constexpr std::size_t kMaxProbes = 20'000;
 constexpr std::size_t kRememberedBytes = std::size_t{64} << 20;  // of meshes
-// Of the sum of all areas: the normals of a closed surface, each as long as its triangle is large, sum up to nothing.
-constexpr double kOpen = 0.05;
 
 using Places = std::vector<Vec3>;
 
@@ -44,17 +43,6 @@ double outsideOf(const Places& probes, const std::vector<Hull>& hulls) {
     outside = std::max(outside, above);
   }
   return outside;
-}
-
-bool isShell(const PieceMesh& mesh) {
-  Vec3 sum = Vec3::Zero();
-  double area = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3 across = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
-    sum += across;
-    area += across.norm();
-  }
-  return sum.norm() > kOpen * area;
 }
 
 CutSurface surfaceOf(const PieceMesh& mesh) {
@@ -147,7 +135,7 @@ NearlyConvex nearlyConvex(const PieceMesh& mesh, double allowed_m, std::size_t m
   static Remembered<Question, NearlyConvex> remembered(kRememberedBytes);
   const Question question{mesh, allowed_m, most};
   if (std::optional<NearlyConvex> known = remembered.find(question)) return *std::move(known);
-  NearlyConvex made = madeAnew(mesh, {isShell(mesh), allowed_m, most});
+  NearlyConvex made = madeAnew(mesh, {capped(mesh).isShell(), allowed_m, most});
   remembered.keep(question, made, bytesOf(mesh));
   return made;
 }

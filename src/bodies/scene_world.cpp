@@ -40,30 +40,58 @@ std::size_t partsIn(const Snapshot& snapshot) {
 namespace {
 
 // Empty: the parts of the body are as near to its mesh as they should be.
-std::string coverWarning(const Instance& instance) {
-  if (!instance.movesAsBody() || instance.body->spec.shape != BodyShape::kParts) return {};
-  const std::shared_ptr<const Body> made =
-      named(instance, [&] { return madeBody(instance.shape, instance.body->spec); });
-  const double size_m = instance.shape->model.bounds().size().norm() / 2;
-  const double off_m = std::max(made->hull_error_m, made->excess_m);
+std::string coverWarning(const Body& made, double size_m) {
+  const double off_m = std::max(made.hull_error_m, made.excess_m);
   if (!(off_m > kNearlyConvex * size_m)) return {};
   std::array<char, 160> text{};
   std::snprintf(
       text.data(), text.size(),
-      ": its %zu parts are up to %.3g mm off its mesh, %.2g %% of its size, not %.2g %%: draw it simpler, or of "
+      "its %zu parts are up to %.3g mm off its mesh, %.2g %% of its size, not %.2g %%: draw it simpler, or of "
       "convex pieces",
-      made->shape.parts.size(), 1e3 * off_m, 100 * off_m / size_m, 100 * kNearlyConvex);
-  return instance.body->name + text.data();
+      made.shape.parts.size(), 1e3 * off_m, 100 * off_m / size_m, 100 * kNearlyConvex);
+  return text.data();
+}
+
+// Empty: its mesh is closed.
+std::string openWarning(const Body& made, bool has_mass) {
+  if (made.open_edges == 0) return {};
+  const char* mass = has_mass ? "" : "set its mass (massKg), or ";
+  std::array<char, 240> text{};
+  if (made.shell_m > 0) {
+    std::snprintf(text.data(), text.size(),
+                  "its mesh is open at %zu edges and counts as a shell, %.3g mm thick, of %.4g kg: %sclose the mesh, "
+                  "or draw its walls with a thickness",
+                  made.open_edges, 1e3 * made.shell_m, made.mass.mass_kg, mass);
+  } else {
+    std::snprintf(
+        text.data(), text.size(),
+        "its mesh is open at %zu edges and counts as a solid with its holes closed, of %.4g kg: %sclose the mesh",
+        made.open_edges, made.mass.mass_kg, mass);
+  }
+  return text.data();
 }
 
 }  // namespace
 
-std::vector<std::string> coverWarnings(const Snapshot& snapshot) {
+std::vector<std::string> partsWarnings(const std::shared_ptr<const Shape>& shape, const BodySpec& spec) {
+  std::vector<std::string> warnings;
+  if (spec.fixed || spec.shape != BodyShape::kParts) return warnings;
+  const std::shared_ptr<const Body> made = madeBody(shape, spec);
+  for (const std::string& warning :
+       {openWarning(*made, spec.mass_kg.has_value()), coverWarning(*made, shape->model.bounds().size().norm() / 2)}) {
+    if (!warning.empty()) warnings.push_back(warning);
+  }
+  return warnings;
+}
+
+std::vector<std::string> bodyWarnings(const Snapshot& snapshot) {
   std::vector<std::string> warnings;
   std::set<const Shape*> warned;
   for (const Instance& instance : snapshot.instances) {
-    const std::string warning = coverWarning(instance);
-    if (!warning.empty() && warned.insert(instance.shape.get()).second) warnings.push_back(warning);
+    if (!instance.movesAsBody()) continue;
+    const auto of_body = named(instance, [&] { return partsWarnings(instance.shape, instance.body->spec); });
+    if (of_body.empty() || !warned.insert(instance.shape.get()).second) continue;
+    for (const std::string& warning : of_body) warnings.push_back(instance.body->name + ": " + warning);
   }
   return warnings;
 }

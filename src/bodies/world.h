@@ -25,8 +25,10 @@ struct Body {
   Mass mass{};
   Compound shape;
   BodySurface surface{};
-  double hull_error_m = 0;  ///< how far the mesh is outside of its shape (convex_hull.h, mesh_parts.h)
-  double excess_m = 0;      ///< how far a part of it reaches beyond the mesh (mesh_parts.h)
+  double hull_error_m = 0;     ///< how far the mesh is outside of its shape (convex_hull.h, mesh_parts.h)
+  double excess_m = 0;         ///< how far a part of it reaches beyond the mesh (mesh_parts.h)
+  std::size_t open_edges = 0;  ///< of its mesh, if it is of parts (mesh_parts.h); 0: it is closed
+  double shell_m = 0;          ///< how thick an open mesh counts for the mass; 0: as a solid
 };
 
 /// Immutable while it is stepped.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -55,6 +56,18 @@ WorldParts checkBodies(const PlacedList& placed) {
   }
   checkJointsOf(placed);
   return {count, placed.joints.size()};
+}
+
+std::vector<std::string> warningsOfNewBodies(const PlacedList& placed, const PlacedList& before) {
+  std::set<ShapeOfBody> known;
+  for (const PlacedShape& one : before) known.insert({one.shape.get(), one.body.get()});
+  std::vector<std::string> warnings;
+  for (const PlacedShape& one : placed) {
+    if (!one.movesAsBody() || !known.insert({one.shape.get(), one.body.get()}).second) continue;
+    for (const std::string& warning : partsWarnings(one.shape, *one.body))
+      warnings.push_back("object " + std::to_string(one.object) + ".body: " + warning);
+  }
+  return warnings;
 }
 
 void checkHandsAtBodies(const Snapshot& scene, std::size_t devices) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "scene/editable_scene.h"
@@ -24,6 +25,10 @@ WorldParts partsOf(const Snapshot& scene);
 /// Throws hl::Error, one line that names the object or joint, for a body whose shape or mass cannot be made, or a joint
 /// that cannot be stepped. What was asked for before is known (made_bodies.h).
 WorldParts checkBodies(const PlacedList& placed);
+
+/// What is to be said of the bodies of parts that were not there before: see partsWarnings(). Each line names the
+/// object.
+std::vector<std::string> warningsOfNewBodies(const PlacedList& placed, const PlacedList& before);
 
 /// `all`: of all clients and the server's own scene. Throws hl::Error where there are more than `most`, or bodies and
 /// more devices than a world of bodies has hands.

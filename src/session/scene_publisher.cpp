@@ -216,6 +216,8 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
     decoded.edit.answers_force = waiting.answers_force;
     EditableScene::Next next = client.scene_.prepare(std::move(decoded.edit));
     const WorldParts bodies = checkBodies(next.placed());
+    for (std::string& warning : warningsOfNewBodies(next.placed(), client.scene_.placed()))
+      decoded.warnings.push_back(std::move(warning));
     PlacedShapes before;
     const std::lock_guard lock(mutex_);  // what was there before is freed without it
     admitBodies(client, bodies);

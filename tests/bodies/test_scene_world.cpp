@@ -98,12 +98,28 @@ TEST(SceneWorld, PartsThatAreFarFromTheMeshAreReportedOnceForAShape) {
     const Instance one = partsInstance(1, test::boxesModel(boxes));
     Instance other = one;
     other.key = 2;
-    const std::vector<std::string> warnings = coverWarnings(*makeSnapshot({one, other}, {}, 1, 0, {}));
+    const std::vector<std::string> warnings = bodyWarnings(*makeSnapshot({one, other}, {}, 1, 0, {}));
     ASSERT_EQ(warnings.size(), count == 8 ? 0u : 1u);
     if (warnings.empty()) continue;
     EXPECT_NE(warnings[0].find("ring: its 64 parts are up to "), std::string::npos) << warnings[0];
     EXPECT_NE(warnings[0].find(" % of its size, not 2 %"), std::string::npos) << warnings[0];
   }
+}
+
+TEST(SceneWorld, AMeshThatIsOpenIsReportedWithHowItCounts) {
+  Model open = test::boxModel(Vec3::Constant(0.03));
+  open.triangles.resize(10);
+  const Instance one = partsInstance(1, open);
+  const std::vector<std::string> warnings = bodyWarnings(*makeSnapshot({one}, {}, 1, 0, {}));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "ring: its mesh is open at 4 edges and counts as a shell, 0.556 mm thick, of 0.01002 kg: set its mass "
+            "(massKg), or close the mesh, or draw its walls with a thickness");
+  BodySpec spec = one.body->spec;
+  spec.mass_kg = 0.1;
+  EXPECT_EQ(partsWarnings(one.shape, spec),
+            (std::vector<std::string>{"its mesh is open at 4 edges and counts as a shell, 0.556 mm thick, of 0.1 kg: "
+                                      "close the mesh, or draw its walls with a thickness"}));
 }
 
 }  // namespace
