@@ -20,6 +20,9 @@ const kElsewhere_D = 0.06;
 /** A finger this near to its proxy, m at the hand, has come up: some hundredths of a newton are left. */
 const kUp_D = 1e-4;
 
+/** It has come up by then, or is held there; and in a recording there is nothing to see of it. */
+const kRise_ms = 500;
+
 export interface MovedHandsHooks {
   send(message: Uint8Array<ArrayBuffer>): void;
   /** The newest one. */
@@ -63,6 +66,7 @@ export class MovedHands {
   private readonly left_ = new Map<number, Vec>();
   /** The hand that was let go of, and comes up to its proxy. */
   private rising_: number | undefined;
+  private riseBegin_ms_: number | undefined;
   private buttons_ = 0;
   private sent_ms_ = -Infinity;
 
@@ -161,7 +165,7 @@ export class MovedHands {
 
   /** Sends the newest goals when it is time. Once per drawn frame. */
   frame(now_ms: number): void {
-    this.endRise();
+    this.endRise(now_ms);
     const { hold_: hold } = this;
     if (hold?.unsent !== true || now_ms - this.sent_ms_ < (1000 * (1 + hold.along.size)) / kGoals_Hz) return;
     this.sent_ms_ = now_ms;
@@ -235,20 +239,22 @@ export class MovedHands {
     const hand = handOf(this.hooks_.state(), device);
     if (hand?.proxy !== undefined && hand.touching && !hand.exploring) {
       this.rising_ = device;
+      this.riseBegin_ms_ = undefined;
       this.hooks_.send(encodeHandGoal(hand.proxy, device));
     } else {
       this.release(device);
     }
   }
 
-  private endRise(): void {
+  private endRise(now_ms: number): void {
     if (this.rising_ === undefined) return;
+    this.riseBegin_ms_ ??= now_ms;
     const hand = handOf(this.hooks_.state(), this.rising_);
     const { finger, proxy } = hand ?? {};
     const near_m = kUp_D * this.hooks_.worldPerHand();
     const under = hand?.touching === true && finger !== undefined && proxy !== undefined &&
       length(sub(finger, proxy)) > near_m;
-    if (!under) this.release(this.rising_);
+    if (!under || now_ms - this.riseBegin_ms_ > kRise_ms) this.release(this.rising_);
   }
 
   private release(device: number): void {

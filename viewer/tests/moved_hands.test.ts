@@ -145,6 +145,18 @@ describe("hands that the page moves", () => {
     expect(kinds()).toEqual(["handGoal 0", "handGoal 0", "release 0"]);
   });
 
+  it("alone are released soon where they do not come up, as while a recording is shown", () => {
+    hands.showHello(helloOf(true));
+    state = create(StateSchema, { finger: { y: -0.006 }, proxy: {}, contacts: [{}] });
+    hands.grab();
+    hands.letGo();
+    hands.frame(now_ms);
+    hands.frame(now_ms + 500);
+    expect(kinds()).toEqual(["handGoal 0"]);
+    hands.frame(now_ms + 501);
+    expect(kinds()).toEqual(["handGoal 0", "release 0"]);
+  });
+
   it("alone are not released once they are grabbed again, and not led up while they explore", () => {
     hands.showHello(helloOf(true));
     state = create(StateSchema, { finger: { y: -0.006 }, proxy: {}, contacts: [{}] });
