@@ -60,7 +60,9 @@ WorldParts checkBodies(const PlacedList& placed) {
 
 std::vector<std::string> warningsOfNewBodies(const PlacedList& placed, const PlacedList& before) {
   std::set<ShapeOfBody> known;
-  for (const PlacedShape& one : before) known.insert({one.shape.get(), one.body.get()});
+  for (const PlacedShape& one : before) {
+    if (one.movesAsBody()) known.insert({one.shape.get(), one.body.get()});
+  }
   std::vector<std::string> warnings;
   for (const PlacedShape& one : placed) {
     if (!one.movesAsBody() || !known.insert({one.shape.get(), one.body.get()}).second) continue;

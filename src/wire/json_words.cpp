@@ -46,8 +46,8 @@ std::string needOf(const std::string& type) {
   return message == nullptr ? "cannot be here" : "must be an object: {" + membersOf(*message) + "}";
 }
 
-}  // namespace
-
+// Of the part of its message behind the place: `invalid value "X" for type type.googleapis.com/hl.proto.Shade` is
+// `"X" is none of SMOOTH, FLAT`. What is not known stays as it is.
 std::string plainJsonWords(const std::string& said) {
   constexpr std::string_view kInvalid = "invalid value ", kFor = " for type ";
   if (said.starts_with("Cannot find field")) return "there is no such name";
@@ -59,6 +59,19 @@ std::string plainJsonWords(const std::string& said) {
   if (!said.starts_with(kInvalid) || type == said.npos) return said;
   return said.substr(kInvalid.size(), type - kInvalid.size()) + " " + needOf(said.substr(type + kFor.size()));
 }
+
+// A place with its names as documents have them: "objects[0].body.velocity_m_s" is "objects[0].body.velocityMS".
+std::string jsonPlace(const std::string& place) {
+  std::string names;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const bool joins =
+        place[i] == '_' && i + 1 < place.size() && std::isalnum(static_cast<unsigned char>(place[i + 1])) != 0;
+    names += joins ? static_cast<char>(std::toupper(static_cast<unsigned char>(place[++i]))) : place[i];
+  }
+  return names;
+}
+
+}  // namespace
 
 std::string JsonFault::line() const { return where.empty() ? words : jsonPlace(where) + ": " + words; }
 
@@ -75,16 +88,6 @@ JsonFault faultOfJson(std::string message) {
   if (rest.starts_with(' ')) where += (where.empty() ? "" : ".") + rest.substr(1, colon - 1);
   const std::string said = rest.substr(colon + 1);
   return {where, plainJsonWords(said.substr(std::min(said.size(), said.find_first_not_of(' '))))};
-}
-
-std::string jsonPlace(const std::string& place) {
-  std::string names;
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    const bool joins =
-        place[i] == '_' && i + 1 < place.size() && std::isalnum(static_cast<unsigned char>(place[i + 1])) != 0;
-    names += joins ? static_cast<char>(std::toupper(static_cast<unsigned char>(place[++i]))) : place[i];
-  }
-  return names;
 }
 
 }  // namespace hl

@@ -12,6 +12,7 @@
 #include "draws.h"
 #include "environment.h"
 #include "mesh_drawings.h"
+#include "mesh_judge.h"
 
 namespace hl::test_nearly_convex {
 namespace {
@@ -89,32 +90,11 @@ Vec3 placeAround(const PieceMesh& mesh, Draws& draws) {
   return box.min + unit.cwiseProduct(box.size());
 }
 
-// By the solid angle of all triangles (Van Oosterom and Strackee 1983): 4 pi inside, 0 outside.
 bool isInside(const PieceMesh& mesh, const Vec3& point) {
-  double angle = 0;
-  for (const auto& corners : mesh.triangles) {
-    const Vec3 a = mesh.vertices[corners[0]] - point, b = mesh.vertices[corners[1]] - point,
-               c = mesh.vertices[corners[2]] - point;
-    const double x = a.norm(), y = b.norm(), z = c.norm();
-    angle += 2 * std::atan2(a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
-  }
-  return angle > 2 * EIGEN_PI;
+  return test::windingAt(mesh.vertices, mesh.triangles, point) > 0.5;
 }
-
 double distanceTo(const PieceMesh& mesh, const Vec3& point) {
-  double least = 1e300;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    // A plain search is enough for a judge: the distance to the triangle's corners, edges and plane.
-    const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
-    const Vec3 normal = (q - p).cross(r - p).normalized();
-    const auto beside = [&](const Vec3& from, const Vec3& to) { return normal.cross(to - from).dot(point - from) < 0; };
-    if (!beside(p, q) && !beside(q, r) && !beside(r, p)) least = std::min(least, std::abs(normal.dot(point - p)));
-    for (const auto& [from, to] : {std::pair{p, q}, {q, r}, {r, p}}) {
-      const double part = std::clamp((point - from).dot(to - from) / (to - from).squaredNorm(), 0.0, 1.0);
-      least = std::min(least, (from + part * (to - from) - point).norm());
-    }
-  }
-  return least;
+  return test::distanceToMesh(mesh.vertices, mesh.triangles, point);
 }
 
 TEST(NearlyConvex, WhatIsConvexIsItsHull) {

@@ -13,6 +13,7 @@
 #include "draws.h"
 #include "environment.h"
 #include "mesh_drawings.h"
+#include "mesh_judge.h"
 
 namespace hl::test_open_meshes {
 namespace {
@@ -86,31 +87,11 @@ double areaOf(const Model& model) {
   return area;
 }
 
-// How far a point is from the surface, by a plain search.
 double distanceTo(const Model& model, const Vec3& point) {
-  double least = 1e300;
-  for (const auto& [a, b, c] : model.triangles) {
-    const Vec3 &p = model.positions[a], &q = model.positions[b], &r = model.positions[c];
-    const Vec3 normal = (q - p).cross(r - p).normalized();
-    const auto beside = [&](const Vec3& from, const Vec3& to) { return normal.cross(to - from).dot(point - from) < 0; };
-    if (!beside(p, q) && !beside(q, r) && !beside(r, p)) least = std::min(least, std::abs(normal.dot(point - p)));
-    for (const auto& [from, to] : {std::pair{p, q}, {q, r}, {r, p}}) {
-      const double part = std::clamp((point - from).dot(to - from) / (to - from).squaredNorm(), 0.0, 1.0);
-      least = std::min(least, (from + part * (to - from) - point).norm());
-    }
-  }
-  return least;
+  return test::distanceToMesh(model.positions, model.triangles, point);
 }
-
-// By solid angles (Van Oosterom and Strackee 1983): 1 inside, 0 outside.
 double windingAt(const Model& model, const Vec3& point) {
-  double angle = 0;
-  for (const auto& [i, j, k] : model.triangles) {
-    const Vec3 a = model.positions[i] - point, b = model.positions[j] - point, c = model.positions[k] - point;
-    const double x = a.norm(), y = b.norm(), z = c.norm();
-    angle += 2 * std::atan2(a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
-  }
-  return angle / (4 * EIGEN_PI);
+  return test::windingAt(model.positions, model.triangles, point);
 }
 
 // How far random points of the parts are beyond the mesh, of half the diagonal of its bounds. A shell is its surface.

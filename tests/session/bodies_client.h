@@ -124,7 +124,10 @@ class BodiesClient {
   }
   void remember(const proto::ServerReply& reply) {
     if (reply.has_state()) state_ = reply.state();
-    if (reply.has_frame_shown()) shown_ = reply.frame_shown().number();
+    if (reply.has_frame_shown()) {
+      shown_ = reply.frame_shown().number();
+      warnings_.assign(reply.frame_shown().warnings().begin(), reply.frame_shown().warnings().end());
+    }
     if (reply.has_refusal()) refusal_ = reply.refusal().text();
     if (reply.has_event()) events_.push_back(reply.event());
   }
@@ -133,6 +136,7 @@ class BodiesClient {
   proto::ClientState state_;
   std::string refusal_;
   std::vector<proto::Event> events_;
+  std::vector<std::string> warnings_;  // of the last frame that was shown
   std::uint64_t shown_ = 0;
 };
 

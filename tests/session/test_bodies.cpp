@@ -271,6 +271,24 @@ TEST_F(SessionBodiesTest, EachOfTheirPartsCounts) {
   EXPECT_EQ(shown(2, 2), "");
 }
 
+// A box without lid, of which a call is said once.
+TEST_F(SessionBodiesTest, AnOpenMeshOfPartsIsAWarningOfTheFrameThatBringsIt) {
+  Client client(server_);
+  proto::Frame frame = blocksFrame(1, {Vec3(0, 0.05, 0)});
+  proto::ObjectDefinition& block = *frame.mutable_objects(1);
+  block.mutable_body()->set_shape(proto::PARTS);
+  block.mutable_items(0)->mutable_primitives()->mutable_triangles()->Truncate(30);
+  ASSERT_EQ(client.show(frame), "");
+  ASSERT_EQ(client.warnings_.size(), 1U);
+  EXPECT_EQ(client.warnings_[0].find("object 2.body: its mesh is open at 4 edges and counts as a shell"), 0U)
+      << client.warnings_[0];
+  EXPECT_EQ(client.warnings_[0].find("massKg"), std::string::npos) << "it has a mass";
+  frame.set_number(2);
+  frame.clear_objects();
+  ASSERT_EQ(client.show(frame), "");
+  EXPECT_TRUE(client.warnings_.empty()) << client.warnings_[0];
+}
+
 TouchServerSettings withDevices(std::size_t count) {
   TouchServerSettings settings = settingsOf();
   settings.devices.clear();

@@ -19,7 +19,6 @@ const kGoals_Hz = 330;
 const kElsewhere_D = 0.06;
 /** A finger this near to its proxy, m at the hand, has come up: some hundredths of a newton are left. */
 const kUp_D = 1e-4;
-
 /** It has come up by then, or is held there; and in a recording there is nothing to see of it. */
 const kRise_ms = 500;
 
@@ -65,8 +64,7 @@ export class MovedHands {
   /** Goals of hands that were let go of. */
   private readonly left_ = new Map<number, Vec>();
   /** The hand that was let go of, and comes up to its proxy. */
-  private rising_: number | undefined;
-  private riseBegin_ms_: number | undefined;
+  private rising_: { readonly device: number; begin_ms?: number } | undefined;
   private buttons_ = 0;
   private sent_ms_ = -Infinity;
 
@@ -188,7 +186,7 @@ export class MovedHands {
   /** Lets the force of every hand go: what they held has gone. */
   releaseAll(): void {
     this.letGo();
-    if (this.rising_ !== undefined) this.release(this.rising_);
+    if (this.rising_ !== undefined) this.release(this.rising_.device);
     for (const device of this.left_.keys()) this.hooks_.send(encodeRelease(device));
     this.left_.clear();
   }
@@ -238,8 +236,7 @@ export class MovedHands {
   private leave(device: number): void {
     const hand = handOf(this.hooks_.state(), device);
     if (hand?.proxy !== undefined && hand.touching && !hand.exploring) {
-      this.rising_ = device;
-      this.riseBegin_ms_ = undefined;
+      this.rising_ = { device };
       this.hooks_.send(encodeHandGoal(hand.proxy, device));
     } else {
       this.release(device);
@@ -247,14 +244,15 @@ export class MovedHands {
   }
 
   private endRise(now_ms: number): void {
-    if (this.rising_ === undefined) return;
-    this.riseBegin_ms_ ??= now_ms;
-    const hand = handOf(this.hooks_.state(), this.rising_);
+    const { rising_: rising } = this;
+    if (rising === undefined) return;
+    rising.begin_ms ??= now_ms;
+    const hand = handOf(this.hooks_.state(), rising.device);
     const { finger, proxy } = hand ?? {};
     const near_m = kUp_D * this.hooks_.worldPerHand();
     const under = hand?.touching === true && finger !== undefined && proxy !== undefined &&
       length(sub(finger, proxy)) > near_m;
-    if (!under || now_ms - this.riseBegin_ms_ > kRise_ms) this.release(this.rising_);
+    if (!under || now_ms - rising.begin_ms > kRise_ms) this.release(rising.device);
   }
 
   private release(device: number): void {

@@ -61,12 +61,12 @@ export class SentScene {
   messages(module: Module, name: string): Bytes[] {
     const gone = this.meshes_;
     this.name_ = name;
-    this.triangles_ = 0;
     const n = new Numbers(module, module._hlWebScene());
     n.list(kBeforeObjects);
     const objects = numbers(n.next());
     this.meshes_ = objects.map(() => ++this.lastMesh_);
     const described = objects.map((object) => this.describe(module, object, kDrawn));
+    this.triangles_ = described.reduce((sum, { triangles }) => sum + triangles, 0);
     this.placed_ = described.map(({ placed }) => placed);
     this.moving_ = objects.filter((object) => described[object]!.moves);
     return [...described.map(({ bytes }) => bytes), this.layoutMessage(module), ...forgotten(gone)];
@@ -113,7 +113,6 @@ export class SentScene {
     const n = new Numbers(module, module._hlWebObject(object));
     const [vertices, normals, triangles, segments] = n.list(4) as [number, number, number, number];
     const [body, coloured, cloudPoints] = [n.next(), n.next(), BigInt(n.next())];
-    this.triangles_ += triangles;
     const positions = floats(module, module._hlWebPositions(object), vertices);
     const bytes = encode({ case: "mesh", value: {
       number: mesh, cloudPoints, ...boundsOf(positions), positions: bytesOf(positions),
@@ -125,7 +124,7 @@ export class SentScene {
     const label = module.UTF8ToString(module._hlWebName(object));
     const placed: Placed =
       body === 0 ? { mesh, label } : { mesh, label, body: { fixed: body !== kMoves }, start };
-    return { bytes, placed, moves: body === kMoves };
+    return { bytes, placed, triangles, moves: body === kMoves };
   }
 }
 

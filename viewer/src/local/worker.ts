@@ -96,8 +96,7 @@ class Server {
 
   /** Values that are none, and surfaces of a scene that has gone, change nothing. */
   private setIso(volume: number, value: number, below: boolean | undefined): void {
-    const volumes = this.scene_.volumes;
-    if (volume < 0 || volume >= volumes) return;
+    if (volume < 0 || volume >= this.scene_.volumes) return;
     const n = new Numbers(this.module_, this.module_._hlWebVolume(volume));
     const [object, , , , was] = n.list(5) as [number, number, number, number, number];
     if (this.module_._hlWebIso(volume, value, below === undefined ? was : Number(below)) === 0) return;
