@@ -11,7 +11,7 @@ namespace hl {
 namespace {
 
 // Of the size of a mesh: corners of one place that were rounded each for itself.
-constexpr double kSamePlace = 1e-6;
+constexpr double kSameCorner = 1e-6;
 // Of the area of a mesh: a hole of less is a crack, as where an edge has a corner that its neighbour does not have.
 constexpr double kCrack = 1e-6;
 
@@ -23,7 +23,7 @@ double areaOf(const std::vector<Vec3>& vertices, const Corners& corners) {
 // For each vertex one that is nearly at its place. Along a direction along which no mesh is drawn few are near.
 std::vector<std::uint32_t> samePlaces(const PieceMesh& mesh) {
   const Vec3 direction = Vec3(0.5377, 0.1834, 0.8231).normalized();
-  const double apart = kSamePlace * sizeOf(mesh);
+  const double apart = kSameCorner * sizeOf(mesh);
   std::vector<std::uint32_t> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0u);
   std::vector<double> along;

@@ -34,7 +34,6 @@ namespace websocket = beast::websocket;
 
 namespace {
 
-constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kPiece_bytes = std::size_t{64} * 1024;  // frames of a large message; pings pass between them
 
 class WebsocketLink : public Link {
@@ -166,7 +165,7 @@ class WebsocketLink : public Link {
         finish("the program has ended the session");
       } else {
         bell_.expires_at(asio::steady_timer::time_point::max());
-        co_await bell_.async_wait(kAwait);
+        co_await bell_.async_wait(asio::as_tuple(asio::use_awaitable));
       }
     }
   }

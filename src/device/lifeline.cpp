@@ -9,7 +9,7 @@ namespace hl {
 
 namespace {
 
-constexpr auto kPatience = std::chrono::milliseconds(50);  // between two looks; nobody waits for a shorter one
+constexpr auto kLookEvery = std::chrono::milliseconds(50);  // between two looks; nobody waits for a shorter one
 
 }  // namespace
 
@@ -24,7 +24,7 @@ Lifeline::~Lifeline() {
 void Lifeline::run() {
   while (running_) {
     if (!holds() && reopen_()) holds_.store(true, std::memory_order_release);
-    std::this_thread::sleep_for(kPatience);
+    std::this_thread::sleep_for(kLookEvery);
   }
 }
 

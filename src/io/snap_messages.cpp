@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kSnap = "a snap";
 constexpr const char* kField = "a field";
-constexpr double kMinOfPlace = 1e-30, kMaxOfPlace = 1e30;
+constexpr double kMinSaved = 1e-30, kMaxSaved = 1e30;
 constexpr double kUnitVector = 1e-6;  // of a vector that was made a unit
 
 // What a SnapSpec is made of, without its name and points.
@@ -67,8 +67,8 @@ void toProto(const SnapSpec& snap, proto::RecordedSnap& out) {
 SnapSpec snapOf(const proto::RecordedSnap& in) {
   SnapParts parts;
   readValues(in.values(), kSnap, parts);
-  checkRanges(kSnap, {{"capture_m", parts.capture_m, kMinOfPlace, kMaxOfPlace},
-                      {"release_N", parts.release_N, kMinOfPlace, kMaxOfPlace}});
+  checkRanges(kSnap, {{"capture_m", parts.capture_m, kMinSaved, kMaxSaved},
+                      {"release_N", parts.release_N, kMinSaved, kMaxSaved}});
   const std::optional<Vec3> normal = normalOf(parts);
   return {in.name(), pointsOf(in, kSnap, normal), normal, parts.capture_m, parts.release_N};
 }
@@ -87,10 +87,10 @@ FieldSpec fieldOf(const proto::RecordedField& in) {
   readValues(in.values(), kField, parts);
   const bool constant = parts.kind == FieldKind::kConstant;
   const double length = parts.direction.norm();
-  checkRanges(kField, {{"reach_m", parts.reach_m, kMinOfPlace, kMaxOfPlace},
-                       {"force_N", parts.force_N, 0, kMaxOfPlace},
-                       {"stiffness_N_m", parts.stiffness_N_m, 0, kMaxOfPlace},
-                       {"damping_Ns_m", parts.damping_Ns_m, 0, kMaxOfPlace},
+  checkRanges(kField, {{"reach_m", parts.reach_m, kMinSaved, kMaxSaved},
+                       {"force_N", parts.force_N, 0, kMaxSaved},
+                       {"stiffness_N_m", parts.stiffness_N_m, 0, kMaxSaved},
+                       {"damping_Ns_m", parts.damping_Ns_m, 0, kMaxSaved},
                        {"its direction's length", length, constant ? 1 - kUnitVector : 0, 1 + kUnitVector}});
   const std::optional<Vec3> normal = normalOf(parts);
   return {in.name(),     parts.kind,          pointsOf(in, kField, normal), normal,         parts.reach_m,

@@ -15,7 +15,7 @@ constexpr std::array<std::uint8_t, 4> kAnswer{0x0a, 0x44, 0x2c, 0x0d};
 constexpr std::array<std::uint8_t, 1> kReady{'A'};
 constexpr int kMaxQuestions = 100;
 constexpr std::size_t kPiece = 62;  // one packet of the USB chip without its two bytes of status
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxImage = std::size_t{1} << 20;
 
 // Reads until `expected` has come; false when the device falls silent first.
 bool expect(FalconTransport& transport, std::span<const std::uint8_t> expected) {
@@ -47,7 +47,7 @@ std::vector<std::uint8_t> readFalconFirmware(const std::string& file) {
         "this Falcon needs its firmware: name the file, falcon:FILE or HL_FALCON_FIRMWARE (Novint's drivers and "
         "libnifalcon have it)");
   const std::string firmware = contentOf(file).value_or("");
-  if (firmware.empty() || firmware.size() > kMaxBytes)
+  if (firmware.empty() || firmware.size() > kMaxImage)
     throw Error(file + " is no firmware of a Falcon: it cannot be read, is empty or too large");
   return {firmware.begin(), firmware.end()};
 }

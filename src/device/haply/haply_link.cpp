@@ -48,12 +48,12 @@ using asio::ip::tcp;
 namespace {
 
 constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
-constexpr auto kPatience = std::chrono::milliseconds(500);  // for one answer
-constexpr auto kRetry = std::chrono::milliseconds(100);
-constexpr auto kPeriod = std::chrono::microseconds(250);  // between two messages: the device's 4 kHz, and no more
-constexpr int kPriority = 75;                             // SCHED_FIFO; below the servo, above the proxy
-constexpr std::uint16_t kOldHttpPort = 10000;             // of services before 3.5
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr auto kAnswerIn = std::chrono::milliseconds(500);
+constexpr auto kConnectEvery = std::chrono::milliseconds(100);
+constexpr auto kMessageEvery = std::chrono::microseconds(250);  // the device's 4 kHz, and no more
+constexpr int kLinkPriority = 75;                               // SCHED_FIFO; below the servo, above the proxy
+constexpr std::uint16_t kOldHttpPort = 10000;                   // of services before 3.5
+constexpr std::size_t kMaxMessage = std::size_t{1} << 20;
 
 using Socket = websocket::stream<beast::tcp_stream>;
 
@@ -124,7 +124,7 @@ class HaplyLink::Conversation {
   }
 
   void run() {
-    requestRealtime(kPriority);
+    requestRealtime(kLinkPriority);
     if (!conversing_) asio::co_spawn(context_, converseAlways(), asio::detached);
     context_.run();
   }
@@ -140,7 +140,7 @@ class HaplyLink::Conversation {
       }
       reportBegun(why);
       exchanged.reportLost();
-      asio::steady_timer timer(context_, kRetry);
+      asio::steady_timer timer(context_, kConnectEvery);
       if (!ending_) co_await timer.async_wait(kAwait);
     }
   }
@@ -197,7 +197,7 @@ class HaplyLink::Conversation {
     tcp::resolver resolver(context_);
     auto [unknown, endpoints] = co_await resolver.async_resolve(address_.host, std::to_string(port), kAwait);
     if (unknown) co_return false;
-    stream.expires_after(kPatience);
+    stream.expires_after(kAnswerIn);
     auto [error, endpoint] = co_await stream.async_connect(endpoints, kAwait);
     if (error) co_return false;
     stream.socket().set_option(tcp::no_delay(true), error);
@@ -210,7 +210,7 @@ class HaplyLink::Conversation {
                              ": install it (haply-inverse-service, from haply.co) and start it";
     const bool reached = co_await reach(socket.next_layer(), address_.port);
     if (!reached) co_return none;
-    socket.read_message_max(kMaxBytes);
+    socket.read_message_max(kMaxMessage);
     auto [error] = co_await socket.async_handshake(address_.host + ":" + std::to_string(address_.port), "/", kAwait);
     co_return error ? none : "";
   }
@@ -226,7 +226,7 @@ class HaplyLink::Conversation {
 
   // Nothing when none comes in time.
   asio::awaitable<std::optional<std::string>> receive(Socket& socket) {
-    socket.next_layer().expires_after(kPatience);
+    socket.next_layer().expires_after(kAnswerIn);
     beast::flat_buffer buffer;
     auto [error, bytes] = co_await socket.async_read(buffer, kAwait);
     if (error) co_return std::nullopt;
@@ -241,8 +241,8 @@ class HaplyLink::Conversation {
       last = ending_;
       const Vec3 force = last ? Vec3(Vec3::Zero()) : exchanged.wantedForce();
       const std::string message = haplyForceMessage(state.device_id, dialect, force, first);
-      timer.expires_after(kPeriod);
-      socket.next_layer().expires_after(kPatience);
+      timer.expires_after(kMessageEvery);
+      socket.next_layer().expires_after(kAnswerIn);
       const std::int64_t asked_ns = monotonicNow_ns();
       auto [unsent, sent] = co_await socket.async_write(asio::buffer(message), kAwait);
       if (unsent) co_return;
