@@ -4,7 +4,7 @@ import { mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
+import { afterAll, afterEach, beforeAll, describe, expect, test, vi } from "vitest";
 import { kWindow, launch, listen, pressModel, screenshot, states, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
@@ -18,6 +18,15 @@ interface Felt {
   readonly force_N: number;
   /** From the pointer to the proxy's picture. */
   readonly off_px: number;
+  /** Drawn since the page was opened, and whether its hand is held. */
+  readonly frames: number;
+  readonly holding: boolean;
+}
+
+declare global {
+  interface Window {
+    drawn: number;
+  }
 }
 
 /** Two plates side by side, of different materials, in one file. */
@@ -69,6 +78,14 @@ describe.skipIf(!kProgram)("a press on the model", () => {
     await page.goto(touch.url);
     await page.waitForFunction(() => window.__hl.triangles > 0 && window.__hl.samples > 100);
     await page.uncheck("#explore");
+    await page.evaluate(() => {
+      window.drawn = 0;
+      const frame = () => {
+        ++window.drawn;
+        requestAnimationFrame(frame);
+      };
+      frame();
+    });
   });
 
   afterAll(async () => {
@@ -76,19 +93,26 @@ describe.skipIf(!kProgram)("a press on the model", () => {
     touch?.process.kill("SIGKILL");
   });
 
-  afterEach(() => page.mouse.up());
+  // A test that ends early leaves nothing pressed.
+  afterEach(async () => {
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+  });
 
   const felt = (at: { x: number; y: number }): Promise<Felt> =>
     page.evaluate(({ x, y }) => {
-      const { time_s, contacts, force_N, proxy } = window.__hl;
+      const { time_s, contacts, force_N, proxy, holding } = window.__hl;
       const picture = window.__hl.project(proxy!);
       const force = force_N === undefined ? 0 : Math.hypot(force_N.x, force_N.y, force_N.z);
-      return { time_s: time_s!, contacts, force_N: force, off_px: Math.hypot(picture.x - x, picture.y - y) };
+      const off_px = Math.hypot(picture.x - x, picture.y - y);
+      return { time_s: time_s!, contacts, force_N: force, off_px, frames: window.drawn, holding };
     }, at);
   const isTouched = ({ contacts, force_N, off_px }: Felt) => contacts > 0 && force_N > 0.1 && off_px < kNear_px;
 
-  /** Waits until the place under the pointer is touched. For so many seconds of the server it was seen not to be: a busy
-   * machine looks seldom. */
+  /**
+   * Waits until the place under the pointer is touched. For so many seconds of the server it was seen not to be: a busy
+   * machine looks seldom.
+   */
   async function secondsUntouched(at: { x: number; y: number }): Promise<number> {
     const first = await felt(at);
     let last = first;
@@ -99,6 +123,17 @@ describe.skipIf(!kProgram)("a press on the model", () => {
       last = now;
       expect(tries, `what is under the pointer is touched, not ${JSON.stringify(last)}`).toBeLessThan(600);
     }
+  }
+
+  /** Waits until the force is as wanted. If it never is, the error says what is felt, and what was before. */
+  async function untilForce(
+    at: { x: number; y: number }, wanted: string, is: (force_N: number) => boolean,
+  ): Promise<void> {
+    const first = await felt(at);
+    await vi.waitFor(async () => {
+      const now = await felt(at);
+      expect(is(now.force_N), `a force ${wanted}: ${JSON.stringify({ first, now })}`).toBe(true);
+    }, { timeout: 120_000 });
   }
 
   /** The middle of the teapot's body in the picture. */
@@ -136,12 +171,12 @@ describe.skipIf(!kProgram)("a press on the model", () => {
     await states(page, 60);
     const light_N = (await felt(at)).force_N;
     await page.mouse.wheel(0, -150);
-    await expect.poll(async () => (await felt(at)).force_N).toBeGreaterThan(1.2 * light_N);
+    await untilForce(at, `a fifth above ${light_N}`, (force_N) => force_N > 1.2 * light_N);
     await page.mouse.wheel(0, 150);
-    await expect.poll(async () => (await felt(at)).force_N).toBeLessThan(1.1 * light_N);
+    await untilForce(at, `no more than a tenth above ${light_N}`, (force_N) => force_N < 1.1 * light_N);
     await page.keyboard.down("Shift");
     await page.mouse.move(at.x, at.y - 40, { steps: 5 });
-    await expect.poll(async () => (await felt(at)).force_N).toBeGreaterThan(1.2 * light_N);
+    await untilForce(at, `a fifth above ${light_N}`, (force_N) => force_N > 1.2 * light_N);
     await page.keyboard.up("Shift");
   });
 
@@ -200,10 +235,10 @@ describe.skipIf(!kProgram)("a press on the model", () => {
     await pressModel(page, at);
     await secondsUntouched(at);
     await page.mouse.wheel(0, -2000);
-    await expect.poll(async () => (await felt(at)).force_N).toBeGreaterThan(1.5);
+    await untilForce(at, "above 1.5 N", (force_N) => force_N > 1.5);
     await page.mouse.up();
     // The device has friction of its own.
-    await expect.poll(async () => (await felt(at)).force_N).toBeLessThan(0.1);
+    await untilForce(at, "below 0.1 N", (force_N) => force_N < 0.1);
     await states(page, 60);
     expect((await felt(at)).force_N).toBeLessThan(0.1);
   });
