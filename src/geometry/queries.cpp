@@ -115,11 +115,20 @@ void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, c
 
 void primitivesWithin(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId)> read, const Vec3& centre,
                       double distance, FunctionRef<void(ElementId, const ClosestPoint&)> visit) {
+  const auto visit_all = [&](ElementId primitive, const ClosestPoint& nearest) {
+    visit(primitive, nearest);
+    return false;
+  };
+  primitivesWithinUntil(index, read, centre, distance, visit_all);
+}
+
+void primitivesWithinUntil(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId)> read, const Vec3& centre,
+                           double distance, FunctionRef<bool(ElementId, const ClosestPoint&)> stop) {
   RecentlySeen seen;
-  index.overlap(centre, distance, [&](ElementId candidate) {
-    if (seen.testAndAdd(candidate)) return;
+  index.overlapUntil(centre, distance, [&](ElementId candidate) {
+    if (seen.testAndAdd(candidate)) return false;
     const ClosestPoint nearest = closestPoint(read(candidate), centre);
-    if (nearest.distance <= distance) visit(candidate, nearest);
+    return nearest.distance <= distance && stop(candidate, nearest);
   });
 }
 

@@ -53,5 +53,9 @@ void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, c
 void primitivesWithin(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read,
                       const Vec3& centre, double distance,
                       FunctionRef<void(ElementId primitive, const ClosestPoint& nearest)> visit);
+/// The same until `stop` returns true.
+void primitivesWithinUntil(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read,
+                           const Vec3& centre, double distance,
+                           FunctionRef<bool(ElementId primitive, const ClosestPoint& nearest)> stop);
 
 }  // namespace hl

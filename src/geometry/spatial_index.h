@@ -28,6 +28,12 @@ class SpatialIndex {
   /// Returns the cost.
   virtual std::size_t overlap(const Vec3& centre, double radius,
                               FunctionRef<void(ElementId primitive)> visit) const = 0;
+  /// The same until `stop` returns true; nothing is visited after that. Returns the cost until then, or about.
+  virtual std::size_t overlapUntil(const Vec3& centre, double radius,
+                                   FunctionRef<bool(ElementId primitive)> stop) const {
+    bool stopped = false;
+    return overlap(centre, radius, [&](ElementId primitive) { stopped = stopped || stop(primitive); });
+  }
   /// Visits every primitive that a sphere of `radius` moving from `from` by `motion` may touch before the limit,
   /// possibly more than once; near ones first if the structure can order them. `visit` receives the current limit (a
   /// fraction of the motion, initially 1) and returns the new one, which must not be larger; the search then continues

@@ -85,9 +85,17 @@ double WideBvh::reach(const Vec3& from, const Vec3& motion, double radius) const
 }
 
 std::size_t WideBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const {
+  const auto visit_all = [&](ElementId primitive) {
+    visit(primitive);
+    return false;
+  };
+  return overlapUntil(centre, radius, visit_all);
+}
+
+std::size_t WideBvh::overlapUntil(const Vec3& centre, double radius, FunctionRef<bool(ElementId)> stop) const {
   if (primitives_ == 0) return 0;
   const Vec3 at = centre - origin_;
-  return overlapWide(tree(), {{at[0], at[1], at[2]}, {0, 0, 0}, reach(centre, Vec3::Zero(), radius)}, visit);
+  return overlapWide(tree(), {{at[0], at[1], at[2]}, {0, 0, 0}, reach(centre, Vec3::Zero(), radius)}, stop);
 }
 
 std::size_t WideBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,

@@ -36,6 +36,8 @@ class WideBvh final : public SpatialIndex {
   double costRatio() const { return cost_ == 0 ? 1 : cost_ / built_cost_; }
 
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
+  std::size_t overlapUntil(const Vec3& centre, double radius,
+                           FunctionRef<bool(ElementId primitive)> stop) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                     FunctionRef<double(ElementId primitive, double limit)> visit) const override;
   std::size_t nearest(const Vec3& centre, double farthest,

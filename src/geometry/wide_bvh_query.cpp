@@ -180,12 +180,15 @@ HWY_INLINE std::size_t forEachFew(const WideTree& tree, const BoxQuery& query, c
   return looked;
 }
 
-std::size_t overlap(const WideTree& tree, const WideQuery& query, FunctionRef<void(ElementId)> visit) {
-  return forEachFew(tree, boxQuery(tree, query), [&](const FewNumbers& numbers) HWY_ATTR {
+// When it stops, no other box is near enough.
+std::size_t overlap(const WideTree& tree, const WideQuery& query, FunctionRef<bool(ElementId)> stop) {
+  BoxQuery box = boxQuery(tree, query);
+  return forEachFew(tree, box, [&](const FewNumbers& numbers) HWY_ATTR {
+    if (box.reach2 < 0) return;
     FewBlocks blocks;
     setBlocks(blocks, tree, query, numbers);
     unsigned bits = withinReach(blocks) & usedLanes(tree, numbers);
-    while (bits != 0) visit(blocks.primitive(takeLowest(bits)));
+    while (bits != 0 && box.reach2 >= 0) box.reach2 = stop(blocks.primitive(takeLowest(bits))) ? -1 : box.reach2;
   });
 }
 
@@ -296,8 +299,8 @@ class Sweep {
 
 }  // namespace
 
-std::size_t overlapFor(const WideTree& tree, const WideQuery& query, FunctionRef<void(ElementId)> visit) {
-  return overlap(tree, query, visit);
+std::size_t overlapFor(const WideTree& tree, const WideQuery& query, FunctionRef<bool(ElementId)> stop) {
+  return overlap(tree, query, stop);
 }
 std::size_t sweepFor(const WideTree& tree, const WideQuery& query, double first_part,
                      FunctionRef<double(ElementId, double)> visit) {
@@ -314,8 +317,8 @@ namespace hl {
 HWY_EXPORT(overlapFor);
 HWY_EXPORT(sweepFor);
 
-std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(ElementId)> visit) {
-  return HWY_DYNAMIC_DISPATCH(overlapFor)(tree, query, visit);
+std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<bool(ElementId)> stop) {
+  return HWY_DYNAMIC_DISPATCH(overlapFor)(tree, query, stop);
 }
 
 std::size_t sweepWide(const WideTree& tree, const WideQuery& query, double first_part,

@@ -11,8 +11,9 @@
 
 namespace hl {
 
-/// See SpatialIndex. RT-safe.
-std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(ElementId primitive)> visit);
+/// SpatialIndex::overlapUntil. RT-safe.
+std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<bool(ElementId primitive)> stop);
+/// SpatialIndex::sweep. RT-safe.
 /// `first_part`: the fraction of the motion that is searched first, 0 < first_part <= 1.
 std::size_t sweepWide(const WideTree& tree, const WideQuery& query, double first_part,
                       FunctionRef<double(ElementId primitive, double limit)> visit);

@@ -33,8 +33,8 @@ bool LookaheadBall::find(const SceneAt& scene, const ContactSet& set, const Tole
   const Vec3 centre = from + slack / length * motion;
   const double covered = tolerance.touching + slack + tolerance.skin;
   nearby.beginAround(scene, centre, covered);
-  scene.primitivesWithin(centre, covered + tolerance.skin,
-                         [&](PrimitiveId primitive, const ClosestPoint& nearest) { nearby.add(primitive, nearest); });
+  const auto add = [&](PrimitiveId primitive, const ClosestPoint& nearest) { nearby.add(primitive, nearest); };
+  if (!scene.fewWithin(centre, covered + tolerance.skin, SweepCache::kRoom, add)) nearby.forget();
   if (nearby.size() <= cost::kMaxInBall) {
     back_off_.worked();
   } else {

@@ -33,6 +33,9 @@ class IndexAt final : public SpatialIndex {
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const override {
     return counted(now().overlap(centre, radius, visit));
   }
+  std::size_t overlapUntil(const Vec3& centre, double radius, FunctionRef<bool(ElementId)> stop) const override {
+    return counted(now().overlapUntil(centre, radius, stop));
+  }
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                     FunctionRef<double(ElementId, double)> visit) const override {
     return counted(now().sweep(from, motion, radius, soon, visit));
@@ -154,8 +157,10 @@ bool SceneAt::precedes(PrimitiveId a, PrimitiveId b) const {
   return a.instance != b.instance ? instance(a).key < instance(b).key : p.source < q.source;
 }
 
-void SceneAt::primitivesWithin(const Vec3& centre, double distance,
-                               FunctionRef<void(PrimitiveId, const ClosestPoint&)> visit) const {
+// Calls search(index, read, centre_O, visit) for each object near the place, where visit(element, nearest_O) calls
+// visit_one(primitive, nearest).
+template <typename Search, typename Visit>
+void SceneAt::searchNear(const Vec3& centre, double distance, const Search& search, const Visit& visit_one) const {
   const Box region = around(centre, centre, distance + kBoxSlack * snapshot_.extent);
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
@@ -163,19 +168,40 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
     const IndexAt index(instance, time_ns_, cost_);
     const auto read_one = [&](ElementId element) -> const Primitive& { return primitive({i, element}); };
     if (instance.atWorld()) {
-      hl::primitivesWithin(index, read_one, centre, distance, [&](ElementId element, const ClosestPoint& nearest) {
-        visit({i, element}, nearest);
+      search(index, read_one, centre, [&](ElementId element, const ClosestPoint& nearest) {
+        return visit_one(PrimitiveId{i, element}, nearest);
       });
       return;
     }
     const Pose pose = instance.poses().at(time_ns_);
-    hl::primitivesWithin(index, read_one, pose.toObject(centre), distance,
-                         [&](ElementId element, const ClosestPoint& nearest_O) {
-                           ClosestPoint nearest = nearest_O;
-                           toWorld(pose, nearest);
-                           visit({i, element}, nearest);
-                         });
+    search(index, read_one, pose.toObject(centre), [&](ElementId element, const ClosestPoint& nearest_O) {
+      ClosestPoint nearest = nearest_O;
+      toWorld(pose, nearest);
+      return visit_one(PrimitiveId{i, element}, nearest);
+    });
   });
+}
+
+void SceneAt::primitivesWithin(const Vec3& centre, double distance,
+                               FunctionRef<void(PrimitiveId, const ClosestPoint&)> visit) const {
+  const auto search = [&](const SpatialIndex& index, const auto& read_one, const Vec3& centre_O, const auto& each) {
+    hl::primitivesWithin(index, read_one, centre_O, distance, each);
+  };
+  searchNear(centre, distance, search, visit);
+}
+
+bool SceneAt::fewWithin(const Vec3& centre, double distance, std::size_t most,
+                        FunctionRef<void(PrimitiveId, const ClosestPoint&)> visit) const {
+  std::size_t count = 0;
+  const auto search = [&](const SpatialIndex& index, const auto& read_one, const Vec3& centre_O, const auto& each) {
+    if (count <= most) hl::primitivesWithinUntil(index, read_one, centre_O, distance, each);
+  };
+  searchNear(centre, distance, search, [&](PrimitiveId primitive, const ClosestPoint& nearest) {
+    if (++count > most) return true;
+    visit(primitive, nearest);
+    return false;
+  });
+  return count <= most;
 }
 
 namespace {

@@ -79,6 +79,10 @@ class SceneAt {
   /// Visits every primitive within `distance` (m, inclusive) of `centre`, in no given order, possibly more than once.
   void primitivesWithin(const Vec3& centre, double distance,
                         FunctionRef<void(PrimitiveId primitive, const ClosestPoint& nearest)> visit) const;
+  /// The same if there are at most `most`; with more it visits that many of them, and returns false. One that is
+  /// visited more than once counts as often.
+  bool fewWithin(const Vec3& centre, double distance, std::size_t most,
+                 FunctionRef<void(PrimitiveId primitive, const ClosestPoint& nearest)> visit) const;
   /// The primitive nearest to `point`, at any distance; of several precedes() decides. False: the scene is empty, and
   /// the rest is unchanged.
   bool nearest(const Vec3& point, PrimitiveId& primitive, ClosestPoint& at) const;
@@ -98,6 +102,8 @@ class SceneAt {
     return std::find(left_out_.begin(), left_out_.end(), instance) != left_out_.end();
   }
   Primitive read(PrimitiveId id) const;
+  template <typename Search, typename Visit>
+  void searchNear(const Vec3& centre, double distance, const Search& search, const Visit& visit_one) const;
   template <typename Ask>
   bool firstOf(const Vec3& from, const Vec3& motion, double distance, const Ask& ask, SceneImpact& out) const;
 

@@ -18,6 +18,17 @@ std::size_t WalkedIndex::overlap(const Vec3& centre, double radius, FunctionRef<
   return walk(ball, visit);
 }
 
+// When it stops, nearly nothing is near enough.
+std::size_t WalkedIndex::overlapUntil(const Vec3& centre, double radius, FunctionRef<bool(ElementId)> stop) const {
+  GridBall ball(metric_, centre, Vec3::Zero(), reachOf(radius, centre, Vec3::Zero(), extent_));
+  bool stopped = false;
+  return walk(ball, [&](ElementId primitive) {
+    if (stopped) return;
+    stopped = stop(primitive);
+    if (stopped) ball.setRadius(0);
+  });
+}
+
 std::size_t WalkedIndex::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                                FunctionRef<double(ElementId, double)> visit) const {
   const GridBall ball(metric_, from, motion, reachOf(radius, from, motion, extent_));

@@ -15,6 +15,7 @@ class WalkedIndex : public SpatialIndex {
   WalkedIndex(const GridFrame& frame, const Box& bounds, double cell);
 
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const final;
+  std::size_t overlapUntil(const Vec3& centre, double radius, FunctionRef<bool(ElementId primitive)> stop) const final;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                     FunctionRef<double(ElementId primitive, double limit)> visit) const final;
   std::size_t nearest(const Vec3& centre, double farthest,

@@ -46,6 +46,7 @@ struct Asked {
         boxes(WideBvh::build(scene)),
         brute(scene.size()) {}
   std::array<const SpatialIndex*, 2> hierarchies() const { return {&spheres, &boxes}; }
+  std::array<const SpatialIndex*, 3> all() const { return {&spheres, &boxes, &brute}; }
 };
 
 using Near = std::map<std::uint32_t, double>;  // source -> distance
@@ -214,6 +215,32 @@ TEST(Queries, PrimitivesInContactAtTheStartAreLeftToTheCaller) {
   ASSERT_TRUE(firstImpact(index, scene, Vec3(0, 0, 0.5), Vec3(0, 0, -4), 0.5, 0.5, impact));
   EXPECT_EQ(impact.primitive, 1u);
   EXPECT_EQ(impact.impact.t, 0.75);
+}
+
+// Each search that is to stop after so many visits those that the whole search visits first, and no more.
+TEST(Queries, ASearchThatIsToStopStops) {
+  test::Random random(49);
+  int stopped = 0;
+  for (int scene = 0; scene < 40; ++scene) {
+    const Asked asked(test::soup(random, 300, 1, 0.3));
+    for (int i = 0; i < 200; ++i) {
+      const Query query = randomQuery(random, 0.5, 0.1);
+      const auto most = static_cast<std::size_t>(1 + random.below(9));
+      for (const SpatialIndex* index : asked.all()) {
+        std::vector<ElementId> all, few;
+        const std::size_t whole = index->overlap(query.from, query.radius, [&](ElementId id) { all.push_back(id); });
+        const std::size_t cost = index->overlapUntil(query.from, query.radius, [&](ElementId id) {
+          few.push_back(id);
+          return few.size() == most;
+        });
+        EXPECT_LE(cost, whole);
+        stopped += few.size() < all.size();
+        all.resize(std::min(all.size(), most));
+        ASSERT_EQ(few, all);
+      }
+    }
+  }
+  EXPECT_GT(stopped, 5'000);
 }
 
 TEST(Queries, NothingIsAllocated) {

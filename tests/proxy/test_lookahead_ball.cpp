@@ -25,11 +25,11 @@ Model hills(double cell) {
   });
 }
 
-// A large floor, and on it a patch of small triangles.
-Model floorWithPatch() {
+// A large floor, and on it a patch of small triangles: twice the square of `cells`.
+Model floorWithPatch(std::uint32_t cells = 60) {
   Model model = judge::triangles({{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 2, 0)}});
   const auto first = static_cast<std::uint32_t>(model.positions.size());
-  const Model patch = judge::grid(60, 60, [](double u, double v) { return Vec3(0.06 * u, 0.06 * v, 1e-5); });
+  const Model patch = judge::grid(cells, cells, [](double u, double v) { return Vec3(0.06 * u, 0.06 * v, 1e-5); });
   model.positions.insert(model.positions.end(), patch.positions.begin(), patch.positions.end());
   for (const auto& t : patch.triangles) model.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   return model;
@@ -188,6 +188,30 @@ TEST(LookaheadBall, BallsThatHoldTooMuchAreTriedLessAndLess) {
   }
   EXPECT_GE(tried, 5);
   EXPECT_LE(tried, 10);
+}
+
+// A face of a machine part beside a rounded edge: the ball of the large triangle holds ten thousands of small ones.
+TEST(LookaheadBall, TheSearchForABallThatHoldsTooMuchEndsSoon) {
+  const auto snapshot = judge::scene(floorWithPatch(600));
+  const SceneAt scene(*snapshot);
+  const Tolerances tolerance = Tolerances::of(kRadius, scene.extent());
+  const Vec3 from(-0.008, 0.03, tolerance.reach);
+  ContactSet set;
+  gatherContacts(scene, from, tolerance.touching, tolerance.reach, set);
+  ASSERT_EQ(set.contacts.size(), 1u);
+  LookaheadBall ahead;
+  ahead.follow({0, 0, 0});
+  ahead.follow({kTravel, 0, 0});
+  const QueryCost before = scene.cost();
+  SweepCache nearby;
+  EXPECT_FALSE(ahead.find(scene, set, tolerance, from, Vec3(kTravel, 0, 0), nearby));
+  EXPECT_LT(scene.cost().primitives - before.primitives, 4 * SweepCache::kRoom);
+  EXPECT_LT(scene.cost().volumes - before.volumes, 4000u);
+  const double slack = 0.5 * cost::kMaxBallTicks * kTravel;
+  std::size_t within = 0;
+  scene.primitivesWithin(from + Vec3(slack, 0, 0), tolerance.touching + slack,
+                         [&](PrimitiveId, const ClosestPoint&) { ++within; });
+  EXPECT_GT(within, 10'000u);
 }
 
 TEST(LookaheadBall, WhatMovesHasNone) {

@@ -110,6 +110,19 @@ void expectImpactsOfMesh(const Draw& draw, const DrawBall& drawBall, int queries
   EXPECT_GT(hits, queries / queries_per_hit);
 }
 
+/// A search that is to stop after so many visits those that the whole search visits first.
+inline void expectStop(const SpatialIndex& index, const TestBall& ball, std::size_t most) {
+  std::vector<ElementId> all, few;
+  const std::size_t whole_cost = index.overlap(ball.centre, ball.radius, [&](ElementId id) { all.push_back(id); });
+  const std::size_t cost = index.overlapUntil(ball.centre, ball.radius, [&](ElementId id) {
+    few.push_back(id);
+    return few.size() >= most;
+  });
+  ASSERT_LE(cost, whole_cost);
+  all.resize(std::min(all.size(), most));
+  ASSERT_EQ(few, all);
+}
+
 template <typename Draw, typename DrawBall>
 void expectDistancesOfMesh(const Draw& draw, const DrawBall& drawBall, int scenes = 400, int balls = 150) {
   scenes *= longer();
@@ -133,6 +146,7 @@ void expectDistancesOfMesh(const Draw& draw, const DrawBall& drawBall, int scene
       a = sorted(std::move(a));
       ASSERT_EQ(a, sorted(std::move(b))) << "scene " << scene << " query " << i;
       found += a.size();
+      expectStop(pair.index, ball, 1 + static_cast<std::size_t>(i) % 7);
     }
   }
   EXPECT_GT(found, static_cast<std::size_t>(scenes * balls));

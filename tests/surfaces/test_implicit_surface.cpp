@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "base/error.h"
 #include "base/realtime_guard.h"
@@ -12,6 +13,7 @@
 #include "scene/scene_model.h"
 #include "surfaces/implicit/implicit_index.h"
 #include "surfaces/implicit/sheet_list.h"
+#include "surfaces/implicit/sheet_measure.h"
 
 namespace hl::test_implicit_surface {
 namespace {
@@ -88,6 +90,53 @@ std::vector<ElementId> allOf(const Sheet& sheet) {
   return found;
 }
 
+Expression machined(test::Random& random) {
+  const Expression plates =
+      test::of(K::kUnion,
+               {turned(test::box(Vec3(0.02, 0.004, 0.01)), random), turned(test::box(Vec3(0.004, 0.018, 0.01)), random),
+                test::of(K::kIntersection, {test::sphere(0.008), test::torus(0.006, 0.003)})});
+  return test::of(K::kDifference, {plates, turned(test::rod(K::kCylinder, 0.003, 0.04), random)});
+}
+
+Vec3 placeIn(test::Random& random, const Box& box) {
+  return {random.uniform(box.min.x(), box.max.x()), random.uniform(box.min.y(), box.max.y()),
+          random.uniform(box.min.z(), box.max.z())};
+}
+
+// Known of boxes within each other, as a walk comes to them; the cuts are the same to the bit.
+TEST(SheetSides, WhatIsKnownOfABoxChangesNoCutInIt) {
+  test::Random random(8);
+  int cut = 0, saved = 0;
+  std::unique_ptr<const SheetList> solid;
+  for (int i = 0; i < 3000 * test::longer(); ++i) {
+    if (i % 100 == 0) solid = std::make_unique<SheetList>(ImplicitSpec{machined(random), test::cube(0.012), 1e-3});
+    const SheetList& list = *solid;
+    const Sheet& sheet = list.sheets[static_cast<std::size_t>(random.below(static_cast<int>(list.sheets.size())))];
+    SheetSides sides;
+    Box box = list.bounds;
+    bool may = true;
+    for (int depth = random.below(4); depth >= 0 && may; --depth) {
+      const Vec3 low = placeIn(random, box), size = box.size() * std::pow(10.0, random.uniform(-1.5, 0));
+      box = {low, (low + size).cwiseMin(box.max)};
+      may = sides.mayHold(sheet.function(), sheet.conditions(), sheet.slack(), spaceOf(box, 0));
+    }
+    SheetPieces whole, known;
+    for (int k = 0; k < 10; ++k) {
+      const std::array<Vec3, 3> triangle{placeIn(random, box), placeIn(random, box), placeIn(random, box)};
+      sheet.pieces(triangle, whole);
+      sheet.pieces(triangle, known, sides);
+      ASSERT_TRUE(may || whole.count == 0);
+      ASSERT_EQ(known.count, whole.count);
+      for (std::size_t piece = 0; piece < whole.count; ++piece)
+        ASSERT_EQ(known.triangles[piece], whole.triangles[piece]);
+      cut += whole.count > 0;
+      saved += known.looks < whole.looks;
+    }
+  }
+  EXPECT_GT(cut, 2000);
+  EXPECT_GT(saved, 10'000);
+}
+
 TEST(ImplicitIndex, BricksLeaveNoCellOut) {
   test::Random random(7);
   std::size_t found = 0;
@@ -95,7 +144,8 @@ TEST(ImplicitIndex, BricksLeaveNoCellOut) {
        {test::torus(0.007, 0.003), turned(test::box(Vec3(0.01, 0.012, 0.008)), random),
         test::of(K::kDifference, {test::sphere(0.01), turned(test::rod(K::kCylinder, 0.005, 0.04), random)}),
         test::of(K::kIntersection, {test::sphere(0.01), test::gyroid(0.02, 0.002)}),
-        test::of(K::kUnion, {test::sphere(0.007), test::sphere(0.006, Vec3(0.005, 0.002, 0))}, 0.004)}) {
+        test::of(K::kUnion, {test::sphere(0.007), test::sphere(0.006, Vec3(0.005, 0.002, 0))}, 0.004),
+        machined(random)}) {
     const SheetList list({solid, test::cube(0.012), 1e-3});
     const std::vector<Sheet> sheets = list.coarser(5);
     std::vector<ElementId> one, other;

@@ -54,6 +54,7 @@ class Sheet {
   const SheetGrid& grid() const { return grid_; }
   const SmoothFunction& smooth() const { return function_->sheets()[number_]; }
   const ImplicitFunction& function() const { return *function_; }
+  std::span<const ImplicitFunction::Condition> conditions() const { return function_->conditions(number_); }
   double slack() const { return slack_; }
   // Bricks as those of BrickPyramid.
   int levels() const { return levels_; }
@@ -67,9 +68,9 @@ class Sheet {
   IsoCell cellAt(const Place& at) const;
   /// The corners of a triangle before it is cut.
   std::array<Vec3, 3> corners(const IsoCell& cell, unsigned triangle) const;
-  /// What is left of a triangle.
-  void pieces(const std::array<Vec3, 3>& corners, SheetPieces& out) const {
-    clipToSheet(*function_, number_, slack_, corners, out);
+  /// What is left of a triangle. `sides`: known of a box that holds it.
+  void pieces(const std::array<Vec3, 3>& corners, SheetPieces& out, const SheetSides& sides = {}) const {
+    clipToSheet(*function_, number_, slack_, sides, corners, out);
   }
 
  private:

@@ -42,14 +42,16 @@ bool SheetBricks::holds(int level, const Place& at) {
     high_ = reach.high();
     if ((low_.array() > box.max.array()).any() || (high_.array() < box.min.array()).any()) return false;
   }
-  return level > 0 || mayBeSurface(space);
+  return mayBeSurface(level, box);
 }
 
 double SheetBricks::bendOf(int level, const Place& at) {
   const Box box = sheet_.boxOf(level, at);
   const SmoothFunction::Space space = spaceOf(box, 0);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN(), kNoBound = Interval::kNoEnd;
-  if (!planeBySlopes(By::kBoth, box, space) || !mayBeIn(space) || !mayBeSurface(space)) return kNone;
+  if (!planeBySlopes(By::kBoth, box, space) || !mayBeIn(space) ||
+      !SheetSides().mayHold(sheet_.function(), sheet_.conditions(), sheet_.slack(), space))
+    return kNone;
   return curved_ ? bend_ : kNoBound;
 }
 
@@ -135,11 +137,15 @@ void SheetBricks::sift(int level, BrickParts& parts) {
   parts.resize(kept);
 }
 
-bool SheetBricks::mayBeSurface(const SmoothFunction::Space& box) const {
-  const auto conditions = sheet_.function().conditions(sheet_.number());
-  return std::all_of(conditions.begin(), conditions.end(), [&](const ImplicitFunction::Condition& condition) {
-    return mayHold(sheet_.function(), condition, sheet_.slack(), box);
-  });
+// A walk comes to a brick from the one that holds it: what is known there is known here.
+bool SheetBricks::mayBeSurface(int level, const Box& box) {
+  const auto here = static_cast<std::size_t>(level);
+  SheetSides sides = sides_[here + 1];
+  const auto space = spaceOf(box, kMoved * step());
+  const bool may = sides.mayHold(sheet_.function(), sheet_.conditions(), sheet_.slack(), space);
+  looks_ += kLooksOfSide * sides.bodies();
+  sides_[here] = sides;
+  return may;
 }
 
 }  // namespace hl

@@ -51,7 +51,7 @@ class SheetBricks {
     });
   }
   void sift(int level, BrickParts& parts);
-  std::size_t cost() const { return cost_ * sheet_.smooth().bodies(); }
+  std::size_t cost() const { return cost_ * sheet_.smooth().bodies() + looks_; }
   /// visit(id, triangle) with its corners in m.
   template <typename Visit>
   void visitTriangles(const Place& at, const Visit& visit) {
@@ -66,7 +66,8 @@ class SheetBricks {
       const auto& edges = cell.triangles->edges[n];
       if (near && !near->meets(vertices[edges])) continue;
       SheetPieces pieces;
-      sheet_.pieces(places[edges], pieces);
+      sheet_.pieces(places[edges], pieces, sides_[0]);
+      looks_ += kLooksOfCut * pieces.looks;
       for (std::size_t piece = 0; piece < pieces.count; ++piece) {
         std::array<Vec3, 3> triangle;
         for (std::size_t i = 0; i < 3; ++i) triangle[i] = toObject(pieces.triangles[piece][i]);
@@ -93,11 +94,15 @@ class SheetBricks {
   std::optional<BallTriangles> trianglesNear() const {
     return ball_ != nullptr ? std::optional(BallTriangles(*ball_, frame_)) : std::nullopt;
   }
-  bool mayBeSurface(const SmoothFunction::Space& box) const;
+  bool mayBeSurface(int level, const Box& box);
 
   // Looks at boxes, for each body of the function.
   static constexpr std::size_t kCostOfBend = 30, kCostOfBrick = 15, kCostOfCell = 12, kCostOfParts = 6;
+  // The same for a body of other functions: over a box, and at the corners of a triangle.
+  static constexpr std::size_t kLooksOfSide = 10, kLooksOfCut = 6;
   static constexpr double kRounding = 1e-12;  // of sums of bounds
+  static constexpr std::size_t kMaxLevels = 8;
+  static_assert(SheetGrid::kMaxCells == std::size_t{1} << 2 * kMaxLevels);
 
   const Sheet& sheet_;
   const GridFrame& frame_;
@@ -109,7 +114,8 @@ class SheetBricks {
   double vary_ = 0;      // sums over the axes: half of what the gradient varies in it
   double bend_ = 0;      // and bounds of the second derivatives in it, or in the brick of level 1 that it is a part of
   bool curved_ = false;  // these give more
-  std::size_t cost_ = 0;
+  std::size_t cost_ = 0, looks_ = 0;
+  std::array<SheetSides, kMaxLevels + 1> sides_;  // of the last brick of each level
   Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
 };
 

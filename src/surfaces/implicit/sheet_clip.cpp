@@ -1,6 +1,7 @@
 #include "surfaces/implicit/sheet_clip.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace hl {
 
@@ -10,11 +11,11 @@ using ClipNode = ImplicitFunction::Node;
 
 class Clip {
  public:
-  Clip(const ImplicitFunction& function, const std::array<Vec3, 3>& triangle, SheetPieces& out)
-      : function_(function), triangle_(triangle), out_(out) {}
+  Clip(const ImplicitFunction& function, const SheetSides& sides, const std::array<Vec3, 3>& triangle, SheetPieces& out)
+      : function_(function), sides_(sides), triangle_(triangle), out_(out) {}
 
   void run(std::size_t sheet, double slack) {
-    out_.count = 0;
+    out_.count = out_.looks = 0;
     Polygon whole;
     whole.count = 3;
     for (std::size_t i = 0; i < 3; ++i) whole.corners[i] = {triangle_[i], Vec3::Unit(static_cast<Eigen::Index>(i))};
@@ -52,8 +53,15 @@ class Clip {
     const auto& [number, sign, slack, next] = *pending;
     const ClipNode& node = function_.node(number);
     if (node.kind == ClipNode::Kind::kSmooth) {
+      if (sides_.isAbove(node.first) || sides_.isBelow(node.first)) {
+        if (sides_.isAbove(node.first) == (sign > 0)) keep(polygon, next);
+        return;
+      }
+      const Vec3& value = valuesOf(node.first);  // at the corners: all on one side, nothing is cut
+      if ((sign * value.array() + slack >= 0).all()) return keep(polygon, next);
+      if ((sign * value.array() + slack < 0).all()) return;
       Polygon rest;
-      cut(polygon, function_.sheets()[node.first], sign, slack, rest);
+      cut(polygon, value, sign, slack, rest);
       if (rest.count >= 3) keep(rest, next);
       return;
     }
@@ -67,8 +75,18 @@ class Clip {
     keep(polygon, &not_first);
   }
 
-  void cut(const Polygon& polygon, const SmoothFunction& by, double sign, double slack, Polygon& rest) {
-    const Vec3 value(by.at(triangle_[0]), by.at(triangle_[1]), by.at(triangle_[2]));
+  // Of a smooth function at the corners of the triangle: conditions share functions, so each is evaluated once.
+  const Vec3& valuesOf(std::size_t sheet) {
+    if (!(known_ >> sheet & 1)) {
+      const SmoothFunction& smooth = function_.sheets()[sheet];
+      values_[sheet] = {smooth.at(triangle_[0]), smooth.at(triangle_[1]), smooth.at(triangle_[2])};
+      known_ |= std::uint64_t{1} << sheet;
+      out_.looks += smooth.bodies();
+    }
+    return values_[sheet];
+  }
+
+  void cut(const Polygon& polygon, const Vec3& value, double sign, double slack, Polygon& rest) {
     const auto over = [&](const Corner& corner) { return sign * corner.weight.dot(value) + slack; };
     for (std::size_t i = 0; i < polygon.count; ++i) {
       const Corner &p = polygon.corners[i], &q = polygon.corners[(i + 1) % polygon.count];
@@ -104,21 +122,25 @@ class Clip {
   }
 
   const ImplicitFunction& function_;
+  const SheetSides& sides_;
   const std::array<Vec3, 3>& triangle_;
   SheetPieces& out_;
   bool full_ = false;
+  std::uint64_t known_ = 0;  // bit i: values_[i] is known
+  std::array<Vec3, kMaxSheets> values_;
 };
 
 }  // namespace
 
-void clipToSheet(const ImplicitFunction& function, std::size_t sheet, double slack, const std::array<Vec3, 3>& triangle,
-                 SheetPieces& out) {
+void clipToSheet(const ImplicitFunction& function, std::size_t sheet, double slack, const SheetSides& sides,
+                 const std::array<Vec3, 3>& triangle, SheetPieces& out) {
   if (function.conditions(sheet).empty()) {
     out.count = 1;
+    out.looks = 0;
     out.triangles[0] = triangle;
     return;
   }
-  Clip(function, triangle, out).run(sheet, slack);
+  Clip(function, sides, triangle, out).run(sheet, slack);
 }
 
 }  // namespace hl

@@ -9,6 +9,7 @@
 
 #include "base/vec.h"
 #include "surfaces/implicit/implicit_function.h"
+#include "surfaces/implicit/sheet_sides.h"
 
 namespace hl {
 
@@ -17,12 +18,14 @@ inline constexpr std::size_t kMaxPieces = 32;
 /// Triangles with the orientation of the one that was cut.
 struct SheetPieces {
   std::size_t count = 0;
+  std::size_t looks = 0;  ///< at functions, for each corner of the triangle
   std::array<std::array<Vec3, 3>, kMaxPieces> triangles;
 };
 
+/// `sides`: of a box that holds the triangle, of the same slack; what is known of it is not looked at again.
 /// `slack`: how much below 0 a condition's value may be; then what two sheets keep overlaps at the edge between them,
 /// where otherwise a gap would be. A triangle that falls into more than kMaxPieces stays whole. RT-safe.
-void clipToSheet(const ImplicitFunction& function, std::size_t sheet, double slack, const std::array<Vec3, 3>& triangle,
-                 SheetPieces& out);
+void clipToSheet(const ImplicitFunction& function, std::size_t sheet, double slack, const SheetSides& sides,
+                 const std::array<Vec3, 3>& triangle, SheetPieces& out);
 
 }  // namespace hl

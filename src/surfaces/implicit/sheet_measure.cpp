@@ -5,18 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "surfaces/implicit/sheet_sides.h"
+
 namespace hl {
 
 namespace {
-
-/// What is known of a node over a box.
-Interval valueOver(const ImplicitFunction& function, std::size_t number, const SmoothFunction::Space& box) {
-  const ImplicitFunction::Node& node = function.node(number);
-  if (node.kind == ImplicitFunction::Node::Kind::kSmooth) return function.sheets()[node.first].over(box);
-  const Interval a = valueOver(function, node.first, box), b = valueOver(function, node.second, box);
-  if (node.kind == ImplicitFunction::Node::Kind::kMin) return {std::min(a.low, b.low), std::min(a.high, b.high)};
-  return {std::max(a.low, b.low), std::max(a.high, b.high)};
-}
 
 /// Of second derivatives over a box: the largest absolute eigenvalue, and that of their middle.
 struct BendBound {
@@ -83,12 +76,6 @@ SmoothFunction::Space spaceOf(const Box& box, double margin) {
     space[axis] = {box.min[a] - more, box.max[a] + more};
   }
   return space;
-}
-
-bool mayHold(const ImplicitFunction& function, const ImplicitFunction::Condition& condition, double slack,
-             const SmoothFunction::Space& box) {
-  const Interval value = valueOver(function, condition.node, box);
-  return (condition.sign > 0 ? value.high : -value.low) + slack >= 0;
 }
 
 bool SheetSearch::Piece::operator<(const Piece& other) const {
@@ -174,9 +161,7 @@ void SheetSearch::add(const Box& box) {
   ++looked_;
   if (!mayBeZero(own, space)) return;
   looked_ += 1 + others_.size();
-  for (const auto& condition : conditions_) {
-    if (!mayHold(function_, condition, 0, space)) return;
-  }
+  if (!SheetSides().mayHold(function_, conditions_, 0, space)) return;
   Piece piece{box.size().maxCoeff() > kCoarse * size_, 0, 0, box, order_++};
   look(sheet_, space, piece);
   for (const std::size_t other : others_) {

@@ -74,10 +74,6 @@ class SheetSearch {
   std::vector<Period> periods_;  // of this sheet and the others, where these repeat themselves within the box
 };
 
-/// Whether a condition may hold somewhere in a box, give or take `slack`. RT-safe.
-bool mayHold(const ImplicitFunction& function, const ImplicitFunction::Condition& condition, double slack,
-             const SmoothFunction::Space& box);
-
 /// A box as intervals, larger by `margin` on each side and by what rounding may need.
 SmoothFunction::Space spaceOf(const Box& box, double margin);
 
