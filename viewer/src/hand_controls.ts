@@ -81,6 +81,13 @@ export class HandControls {
     this.hands.sendSettings(change);
   }
 
+  /** Nothing is sent to the session for a while. */
+  leave(): void {
+    this.input.cancel();
+    this.hands.letGoAtOnce();
+    this.active = false;
+  }
+
   /** Once per drawn frame. */
   frame(now_ms: number): void {
     const { direction, buttons } = padState(navigator.getGamepads?.() ?? []);

@@ -195,8 +195,7 @@ class App {
   /** What the server goes on sending of its scene is kept; nothing is sent to it that changes anything. */
   private leaveLive(): void {
     // Before the session is out of reach: the server gets the release.
-    this.hands_.input.cancel();
-    this.hands_.active = false;
+    this.hands_.leave();
     this.held_ = new SceneHold(this.live_.store);
     this.eye_ = this.stage_.isTurned ? this.stage_.eye : undefined;
     this.notices_.stand("vibration", undefined);

@@ -183,10 +183,15 @@ export class MovedHands {
     }
   }
 
-  /** Lets the force of every hand go: what they held has gone. */
-  releaseAll(): void {
+  /** As letGo(), where nothing more can be sent soon: a hand alone does not come up to its proxy first. */
+  letGoAtOnce(): void {
     this.letGo();
     if (this.rising_ !== undefined) this.release(this.rising_.device);
+  }
+
+  /** Lets the force of every hand go: what they held has gone. */
+  releaseAll(): void {
+    this.letGoAtOnce();
     for (const device of this.left_.keys()) this.hooks_.send(encodeRelease(device));
     this.left_.clear();
   }

@@ -145,7 +145,18 @@ describe("hands that the page moves", () => {
     expect(kinds()).toEqual(["handGoal 0", "handGoal 0", "release 0"]);
   });
 
-  it("alone are released soon where they do not come up, as while a recording is shown", () => {
+  it("alone are released at once where nothing more can be sent", () => {
+    hands.showHello(helloOf(true));
+    state = create(StateSchema, { finger: { y: -0.006 }, proxy: {}, contacts: [{}] });
+    hands.grab();
+    hands.letGoAtOnce();
+    expect(kinds()).toEqual(["handGoal 0", "release 0"]);
+    hands.letGoAtOnce();
+    hands.frame(now_ms + 501);
+    expect(kinds()).toEqual(["handGoal 0", "release 0"]);
+  });
+
+  it("alone are released soon where they do not come up", () => {
     hands.showHello(helloOf(true));
     state = create(StateSchema, { finger: { y: -0.006 }, proxy: {}, contacts: [{}] });
     hands.grab();
