@@ -38,9 +38,8 @@ bool SheetBricks::holds(int level, const Place& at) {
   if (ball_ != nullptr) {
     const PlaneReach reach(*ball_, middle_, value_, normal_, rest_);
     if (reach.misses()) return false;
-    low_ = reach.low();
-    high_ = reach.high();
-    if ((low_.array() > box.max.array()).any() || (high_.array() < box.min.array()).any()) return false;
+    near_ = {reach.low(), reach.high()};
+    if (!near_.meets(box)) return false;
   }
   return mayBeSurface(level, box);
 }

@@ -10,6 +10,9 @@
 // (known_bricks.h), there are bounds H of the second derivatives, and with the function's own gradient as normal
 //   e = 1/2 sum of H half half,
 // which falls with the square of the size and needs no more intervals.
+//
+// Where the conditions of the sheet hold nowhere in a brick, it is left out too; what they say of all of it is known to
+// its parts and to the cuts of its triangles (sheet_sides.h).
 #pragma once
 
 #include <optional>
@@ -40,8 +43,8 @@ class SheetBricks {
   bool holds(int level, const Place& at);
   /// As KnownBrick has it; not a number if the sheet is not in the brick.
   double bendOf(int level, const Place& at);
-  const Vec3& low() const { return low_; }
-  const Vec3& high() const { return high_; }
+  const Vec3& low() const { return near_.min; }
+  const Vec3& high() const { return near_.max; }
   bool mayCross(const Vec3& middle) const { return !(std::abs(value_ + normal_.dot(middle - middle_)) > crossing_); }
   template <typename Visit>
   void forEachPart(int level, const Place& first, const Place& end, const Visit& visit) const {
@@ -116,7 +119,7 @@ class SheetBricks {
   bool curved_ = false;  // these give more
   std::size_t cost_ = 0, looks_ = 0;
   std::array<SheetSides, kMaxLevels + 1> sides_;  // of the last brick of each level
-  Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
+  Box near_;                                      // where the ball may meet it in the last brick
 };
 
 }  // namespace hl
