@@ -11,6 +11,8 @@ import re
 import sys
 from pathlib import Path
 
+import tree_check
+
 LEVELS = {
     "base": 0,
     "geometry": 1, "wire": 1, "device": 1,
@@ -157,17 +159,7 @@ def check(root):
 
 
 def main(arguments):
-    if arguments and arguments[0] in ("-h", "--help"):
-        print(__doc__)
-        return 0
-    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
-    if not (root / "src").is_dir():
-        print(f"check_layers: error: {root} has no folder src", file=sys.stderr)
-        return 2
-    faults = check(root)
-    for fault in faults:
-        print(fault)
-    return 1 if faults else 0
+    return tree_check.main("check_layers", __doc__, check, arguments)
 
 
 if __name__ == "__main__":

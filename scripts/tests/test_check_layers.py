@@ -1,24 +1,14 @@
 """check_layers finds what it exists to find, in small trees made for the purpose, and passes a clean one."""
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path[:0] = [str(Path(__file__).resolve().parent.parent), str(Path(__file__).resolve().parent)]
 import check_layers  # noqa: E402
+from small_tree import SmallTree  # noqa: E402
 
 
-class CheckLayers(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.addCleanup(self.directory.cleanup)
-        self.root = Path(self.directory.name)
-
-    def write(self, path, text):
-        target = self.root / path
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(text, encoding="utf-8")
-
+class CheckLayers(SmallTree):
     def faults(self):
         return check_layers.check(self.root)
 

@@ -1,28 +1,18 @@
 """check_names finds names that two sources of a folder give, in small trees made for the purpose, and nothing else."""
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path[:0] = [str(Path(__file__).resolve().parent.parent), str(Path(__file__).resolve().parent)]
 import check_names  # noqa: E402
+from small_tree import SmallTree  # noqa: E402
 
 
 def source(private):
     return f"namespace hl {{\n\nnamespace {{\n\n{private}\n\n}}  // namespace\n\n}}  // namespace hl\n"
 
 
-class CheckNames(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.addCleanup(self.directory.cleanup)
-        self.root = Path(self.directory.name)
-
-    def write(self, path, text):
-        target = self.root / path
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(text, encoding="utf-8")
-
+class CheckNames(SmallTree):
     def faults(self):
         return check_names.check(self.root)
 

@@ -26,7 +26,7 @@ Model hills(double cell) {
 }
 
 // A large floor, and on it a patch of small triangles: twice the square of `cells`.
-Model floorWithPatch(std::uint32_t cells = 60) {
+Model floorWithPatch(std::uint32_t cells) {
   Model model = judge::triangles({{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 2, 0)}});
   const auto first = static_cast<std::uint32_t>(model.positions.size());
   const Model patch = judge::grid(cells, cells, [](double u, double v) { return Vec3(0.06 * u, 0.06 * v, 1e-5); });
@@ -168,22 +168,31 @@ TEST(LookaheadBall, HoldAllThatTheWayCanTouch) {
   EXPECT_GT(hits, 20);
 }
 
+// A proxy that rests on the floor beside the patch, and slides toward it.
+struct BesidePatch {
+  explicit BesidePatch(std::uint32_t cells) : snapshot(judge::scene(floorWithPatch(cells))), scene(*snapshot) {
+    gatherContacts(scene, from, tolerance.touching, tolerance.reach, set);
+    ahead.follow({0, 0, 0});
+    ahead.follow({kTravel, 0, 0});
+  }
+  bool find(SweepCache& nearby) { return ahead.find(scene, set, tolerance, from, Vec3(kTravel, 0, 0), nearby); }
+
+  const std::shared_ptr<const Snapshot> snapshot;
+  const SceneAt scene;
+  const Tolerances tolerance = Tolerances::of(kRadius, scene.extent());
+  const Vec3 from{-0.008, 0.03, tolerance.reach};
+  ContactSet set;
+  LookaheadBall ahead;
+};
+
 // On a large triangle among small ones the balls hold too much: soon nobody asks for them any more.
 TEST(LookaheadBall, BallsThatHoldTooMuchAreTriedLessAndLess) {
-  const auto snapshot = judge::scene(floorWithPatch());
-  const SceneAt scene(*snapshot);
-  const Tolerances tolerance = Tolerances::of(kRadius, scene.extent());
-  const Vec3 from(-0.008, 0.03, tolerance.reach);
-  ContactSet set;
-  gatherContacts(scene, from, tolerance.touching, tolerance.reach, set);
-  ASSERT_EQ(set.contacts.size(), 1u);
-  LookaheadBall ahead;
-  ahead.follow({0, 0, 0});
-  ahead.follow({kTravel, 0, 0});
+  BesidePatch at(60);
+  ASSERT_EQ(at.set.contacts.size(), 1u);
   int tried = 0;
   for (int i = 0; i < 1000; ++i) {
     SweepCache nearby;
-    EXPECT_FALSE(ahead.find(scene, set, tolerance, from, Vec3(kTravel, 0, 0), nearby));
+    EXPECT_FALSE(at.find(nearby));
     tried += nearby.size() > 0;
   }
   EXPECT_GE(tried, 5);
@@ -192,25 +201,17 @@ TEST(LookaheadBall, BallsThatHoldTooMuchAreTriedLessAndLess) {
 
 // A face of a machine part beside a rounded edge: the ball of the large triangle holds ten thousands of small ones.
 TEST(LookaheadBall, TheSearchForABallThatHoldsTooMuchEndsSoon) {
-  const auto snapshot = judge::scene(floorWithPatch(600));
-  const SceneAt scene(*snapshot);
-  const Tolerances tolerance = Tolerances::of(kRadius, scene.extent());
-  const Vec3 from(-0.008, 0.03, tolerance.reach);
-  ContactSet set;
-  gatherContacts(scene, from, tolerance.touching, tolerance.reach, set);
-  ASSERT_EQ(set.contacts.size(), 1u);
-  LookaheadBall ahead;
-  ahead.follow({0, 0, 0});
-  ahead.follow({kTravel, 0, 0});
-  const QueryCost before = scene.cost();
+  BesidePatch at(600);
+  ASSERT_EQ(at.set.contacts.size(), 1u);
+  const QueryCost before = at.scene.cost();
   SweepCache nearby;
-  EXPECT_FALSE(ahead.find(scene, set, tolerance, from, Vec3(kTravel, 0, 0), nearby));
-  EXPECT_LT(scene.cost().primitives - before.primitives, 4 * SweepCache::kRoom);
-  EXPECT_LT(scene.cost().volumes - before.volumes, 4000u);
+  EXPECT_FALSE(at.find(nearby));
+  EXPECT_LT(at.scene.cost().primitives - before.primitives, 4 * SweepCache::kRoom);
+  EXPECT_LT(at.scene.cost().volumes - before.volumes, 4000u);
   const double slack = 0.5 * cost::kMaxBallTicks * kTravel;
   std::size_t within = 0;
-  scene.primitivesWithin(from + Vec3(slack, 0, 0), tolerance.touching + slack,
-                         [&](PrimitiveId, const ClosestPoint&) { ++within; });
+  at.scene.primitivesWithin(at.from + Vec3(slack, 0, 0), at.tolerance.touching + slack,
+                            [&](PrimitiveId, const ClosestPoint&) { ++within; });
   EXPECT_GT(within, 10'000u);
 }
 

@@ -2,7 +2,7 @@
 // decided, for all that is in the box: for the parts of a brick, and for the cuts of its triangles.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
