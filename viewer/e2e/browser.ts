@@ -15,6 +15,11 @@ export const kSizes = [
 /** The usual window. Its canvas has a quarter of the pixels, as software GL takes its time for each; pictures have all. */
 export const kWindow = { viewport: kSizes[0], deviceScaleFactor: process.env.HL_SCREENSHOTS ? 1 : 0.5 };
 
+/** Turns the wheel by so many pixels of the page, up if negative: Chromium takes a test's pixels for those of the device. */
+export function turnWheel(page: Page, turned_px: number): Promise<void> {
+  return page.mouse.wheel(0, turned_px * kWindow.deviceScaleFactor);
+}
+
 /** Software GL takes all processors, which a servo without real-time priority has to share: HL_CHROMIUM comes last. */
 const kYieldingChromium = fileURLToPath(new URL("yielding_chromium.sh", import.meta.url));
 

@@ -6,7 +6,8 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { LedgerMode, SurfacesSchema, TicksEndedSchema } from "../src/gen/hl_pb";
 import { FakeServer } from "../test-support/fake_server";
 import {
-  expectTidyLayout, kSizes, kWindow, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+  expectTidyLayout, kSizes, kWindow, launch, listen, modelPixels, openSection, resize, screenshot, states, turnWheel,
+  type Complaints,
 } from "./browser";
 
 let browser: Browser;
@@ -253,7 +254,7 @@ test("keys, the wheel and the release of the mouse move and let go of the hand",
   await expect.poll(() => server.received.at(-1)?.body.case).toBe("release");
   await page.mouse.move(640, 360);
   await page.mouse.down();
-  await page.mouse.wheel(0, -300);
+  await turnWheel(page, -300);
   await expect.poll(() => server.received.at(-1)?.body.case).toBe("handGoal");
   expect(await page.evaluate(() => window.__hl.holding)).toBe(true);
   await page.mouse.up();

@@ -3,7 +3,7 @@
 
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-import { kWindow, launch, listen, screenshot, type Complaints } from "./browser";
+import { kWindow, launch, listen, screenshot, turnWheel, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 const shaftUp = (page: Page) => page.evaluate(() => {
@@ -52,7 +52,7 @@ describe.skipIf(!kProgram)("the stylus of a device with a wrist and a gripper", 
   test("rolls about its shaft with the wheel, and turns by keys", async () => {
     const before = await page.evaluate(() => window.__hl.stylus!);
     await page.keyboard.down("q");
-    await page.mouse.wheel(0, 400);
+    await turnWheel(page, 400);
     for (let i = 0; i < 6; ++i) await page.keyboard.press("ArrowRight");
     await page.waitForFunction((was) => {
       const dot = window.__hl.stylus!.reduce((sum, part, i) => sum + part * was[i]!, 0);

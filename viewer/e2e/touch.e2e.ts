@@ -10,7 +10,8 @@ import { length, sub, type Vec } from "../src/vec";
 import { knownVec } from "../src/wire_values";
 import { distanceToTriangles } from "../test-support/closest_point";
 import {
-  expectTidyLayout, kSizes, kWindow, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+  expectTidyLayout, kSizes, kWindow, launch, listen, modelPixels, openSection, resize, screenshot, states, turnWheel,
+  type Complaints,
 } from "./browser";
 import { ended, kProgram, startTouch, type Touch } from "./programs";
 
@@ -197,7 +198,7 @@ async function pushUntilHeld(page: Page): Promise<void> {
     if (separation > 1) {
       return;
     }
-    await page.mouse.wheel(0, farther_m > 0 ? -60 : 60);
+    await turnWheel(page, farther_m > 0 ? -60 : 60);
     await states(page, 3);
   }
   throw new Error(`the surface did not hold the finger back in ${kTurns} turns of the wheel`);
