@@ -96,7 +96,7 @@ Rgb PointRecord::colourOf(const PointNumbers& numbers) const {
 }
 
 std::optional<PointNumber> pointNumberOf(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, PointNumber>, 15> kNames{{{"x", kPointX},
+  constexpr std::array<std::pair<std::string_view, PointNumber>, 18> kNames{{{"x", kPointX},
                                                                              {"y", kPointY},
                                                                              {"z", kPointZ},
                                                                              {"nx", kNormalX},
@@ -105,6 +105,9 @@ std::optional<PointNumber> pointNumberOf(std::string_view name) {
                                                                              {"normal_x", kNormalX},
                                                                              {"normal_y", kNormalY},
                                                                              {"normal_z", kNormalZ},
+                                                                             {"r", kRed},
+                                                                             {"g", kGreen},
+                                                                             {"b", kBlue},
                                                                              {"red", kRed},
                                                                              {"green", kGreen},
                                                                              {"blue", kBlue},

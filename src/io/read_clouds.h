@@ -1,5 +1,5 @@
-// Files of points: LAS, PCD, PLY without faces, and text in columns. They are read in one pass, however large they are;
-// a packed PCD is held as a whole.
+// Files of points: LAS, PCD, PLY without faces, and text in columns. They are read in pieces, however large they are; a
+// packed PCD is held as a whole.
 #pragma once
 
 #include <string>
@@ -26,7 +26,7 @@ void readCloud(const ModelFile& file, CloudSink& sink);
 void readLas(const ModelFile& file, CloudSink& sink);
 void readPcd(const ModelFile& file, CloudSink& sink);
 void readPlyPoints(const ModelFile& file, CloudSink& sink);
-/// x y z, or x y z nx ny nz with unit normals; other columns do not count.
+/// Text: x y z, and normals and colours where a line of names or the numbers of the first lines show them.
 void readXyz(const ModelFile& file, CloudSink& sink);
 
 }  // namespace hl

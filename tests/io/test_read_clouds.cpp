@@ -349,15 +349,70 @@ TEST(ReadClouds, DeletedPointsOfLasAreLeftOut) {
 TEST(ReadClouds, Xyz) {
   expectPoints(taken("a.xyz", "3\n# x y z\n1 2 3\n-4,5.5,6\n\n.25;-8;9;255\n"), false);
   expectPoints(taken("a.xyz", "1 2 3 0 1 0\n-4 5.5 6 0 1 0\n.25 -8 9 0 1 0\n"), true);
-  expectPoints(taken("a.xyz", "1 2 3 255 0 12\n-4 5.5 6 0 1 0\n.25 -8 9 0 1 0"), false);
   expectPoints(taken("a.xyz", "\xef\xbb\xbf\"X\", \"Y\", \"Z\"\n1, 2, 3\n-4, 5.5, 6\n.25, -8, 9\n"), false);
   expectPoints(taken("a.xyz", "// by a scanner\n//X Y Z\n\n3\n1 2 3\n-4 5.5 6\n.25 -8 9\n"), false);
   expectPoints(taken("a.xyz", "# metres\nx y z\n1 2 3\n-4 , 5.5 , 6\n.25 -8 9\n"), false);
   EXPECT_EQ(refusal("a.xyz", "1,2,3\n4,,5,6\n"), "is no list of points: line 2 is '4,,5,6', and a point is x y z");
   EXPECT_EQ(refusal("a.xyz", "1,2,3\n,4,5,6\n"), "is no list of points: line 2 is ',4,5,6', and a point is x y z");
-  EXPECT_EQ(refusal("a.xyz", "id,x,y,z\n0,1,2,3\n"),
-            "is no list of points: line 1 is 'id,x,y,z', and a point is x y z");
+  EXPECT_EQ(refusal("a.xyz", "id,x,y\n0,1,2\n"), "is no list of points: line 1 is 'id,x,y', and a point is x y z");
+  EXPECT_EQ(refusal("a.xyz", "id,x,y,z\n0,1,2\n"), "is no list of points: line 2 is '0,1,2', and a point is x y z");
   EXPECT_EQ(refusal("a.xyz", "3\nwater\nO 0 0 0\n"), "is no list of points: line 2 is 'water', and a point is x y z");
+}
+
+void expectColours(const CloudTaker& cloud, const std::vector<Rgb>& colours, bool normals = false) {
+  ASSERT_EQ(cloud.positions, kPoints);
+  EXPECT_EQ(cloud.normals.size(), normals ? 3U : 0U);
+  EXPECT_EQ(cloud.colours, colours);
+}
+
+const std::vector<Rgb> kTextColours{{255, 0, 12}, {0, 1, 0}, {7, 200, 99}};
+
+TEST(ReadClouds, WhatColumnsOfTextHoldIsSeenFromTheirNumbers) {
+  expectColours(taken("a.xyz", "1 2 3 255 0 12\n-4 5.5 6 0 1 0\n.25 -8 9 7 200 99"), kTextColours);
+  expectColours(taken("a.pts", "3\n1 2 3 -1870 255 0 12\n-4 5.5 6 310 0 1 0\n.25 -8 9 0 7 200 99"), kTextColours);
+  const std::string normals[]{" 0 0 1", " 0.6 0 0.8", " 0 -1 0"};
+  const std::string colours[]{" 255 0 12", " 0 1 0", " 7 200 99"};
+  const std::string places[]{"\n1 2 3", "\n-4 5.5 6", "\n.25 -8 9"};
+  std::string before, after;
+  for (std::size_t i = 0; i < 3; ++i) {
+    before += places[i] + colours[i] + normals[i];
+    after += places[i] + normals[i] + colours[i];
+  }
+  expectColours(taken("a.xyz", before), kTextColours, true);
+  expectColours(taken("a.xyz", after), kTextColours, true);
+  // Which three of four numbers are meant is not known; what is all 0, above 255 or has a fraction is no colour.
+  for (const std::string rest : {" 1 2 3 4", " 0 0 0", " 1 2 256", " 1 2 0.5", " 1 2 -1", " 1 2"})
+    expectPoints(taken("a.xyz", places[0] + rest + places[1] + rest + places[2] + rest), false);
+  // One line is shorter.
+  expectPoints(taken("a.xyz", "1 2 3 255 0 12\n-4 5.5 6\n.25 -8 9 7 200 99"), false);
+}
+
+TEST(ReadClouds, ColumnsOfTextAreWhatTheirNamesSay) {
+  const std::string colours = "0,1,2,3,255,0,12\n1,-4,5.5,6,0,1,0\n2,.25,-8,9,7,200,99\n";
+  expectColours(taken("a.xyz", "id,x,y,z,Red,Green,Blue\n" + colours), kTextColours);
+  expectColours(taken("a.xyz", "\"ID\";\"X\";\"Y\";\"Z\";\"R\";\"G\";\"B\"\n" + colours), kTextColours);
+  expectPoints(taken("a.xyz", "id,x,y,z,class,returns,angle\n" + colours), false);
+  expectColours(taken("a.xyz",
+                      "//X Y Z R G B Nx Ny Nz\n3\n1 2 3 255 0 12 0 0 1\n-4 5.5 6 0 1 0 0 0 1\n.25 -8 9 7 200 "
+                      "99 0 0 1\n"),
+                kTextColours, true);
+  // Of the numbers of the colours, too, which are 0 to 1 or of 16 bits.
+  expectColours(taken("a.xyz", "x y z r g b\n1 2 3 1 0 0.2\n-4 5.5 6 0 1 0\n.25 -8 9 0.5 0.1 0\n"),
+                {{255, 0, 51}, {0, 255, 0}, {128, 26, 0}});
+  expectColours(taken("a.xyz", "x y z r g b\n1 2 3 65535 0 257\n-4 5.5 6 0 514 0\n.25 -8 9 0 0 771\n"),
+                {{255, 0, 1}, {0, 2, 0}, {0, 0, 3}});
+  // No names: x, y and z are not the first of them.
+  expectPoints(taken("a.xyz", "# here z is up, x east and y north\n1 2 3\n-4 5.5 6\n.25 -8 9\n"), false);
+  EXPECT_EQ(refusal("a.xyz", "x y z x\n1 2 3 4\n"), "is no list of points: line 1 is 'x y z x', and a point is x y z");
+}
+
+TEST(ReadClouds, TextMayHaveDecimalCommas) {
+  expectPoints(taken("a.xyz", "1,0 2,0 3\n-4 5,5 6\n0,25 -8 9,0\n"), false);
+  expectPoints(taken("a.xyz", "X;Y;Z\n1;2;3\n-4;5,5;6\n0,25;-8;9\n"), false);
+  expectColours(taken("a.xyz", "1 2 3 255 0 12\n-4 5,5 6 0 1 0\n0,25 -8 9 7 200 99\n"), kTextColours);
+  expectPoints(taken("a.xyz", "1,2,3\n-4,5.5,6\n.25,-8,9\n"), false);
+  EXPECT_EQ(refusal("a.xyz", "1,5 2,5 3,5\n1 2,5,5 3\n"),
+            "is no list of points: line 2 is '1 2,5,5 3', and a point is x y z");
 }
 
 std::string loadRefusal(const std::string& path) {
