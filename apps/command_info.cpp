@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -58,7 +60,9 @@ struct Totals {
   Reading reading;
   std::size_t nodes = 0, leaves = 0, geometry_bytes = 0;
   int depth = 0;
-  bool normals = false, texcoords = false;
+  bool normals = false, texcoords = false, vertex_colours = false;
+  std::set<Rgb> colours;
+  std::map<const std::string*, std::size_t> pictures;  // bytes of each file
 
   void add(const Shape& shape) {
     const Model& model = shape.model;
@@ -74,8 +78,23 @@ struct Totals {
     geometry_bytes += shape.geometryBytes();
     normals = normals || shape.hasNormals();
     texcoords = texcoords || shape.hasTexcoords();
+    addAppearance(model.appearance);
+  }
+  void addAppearance(const Appearance& appearance) {
+    vertex_colours = vertex_colours || !appearance.vertex_colours.empty();
+    for (const std::uint16_t number : appearance.triangle_paints) colours.insert(appearance.paints[number].colour);
+    for (const Picture& picture : appearance.pictures) pictures[picture.file.get()] = picture.file->size();
   }
 };
+
+// Pages show it.
+void printAppearance(const Totals& all) {
+  if (all.vertex_colours) fmt::print("colours:    per vertex\n");
+  if (!all.vertex_colours && !all.colours.empty()) fmt::print("colours:    {} of surfaces\n", all.colours.size());
+  std::size_t bytes = 0;
+  for (const auto& [file, size] : all.pictures) bytes += size;
+  if (bytes > 0) fmt::print("pictures:   {}, {:.2g} MB\n", all.pictures.size(), 1e-6 * static_cast<double>(bytes));
+}
 
 void printReading(const Reading& reading) {
   if (reading.patch_error_m > 0)
@@ -99,6 +118,7 @@ void printTotals(const Totals& all, const Snapshot& snapshot) {
     fmt::print("precision:  model files are read in single precision: coordinates to 6e-8 of their size\n");
   fmt::print("normals:    {}\n", all.normals ? "per vertex" : "none");
   fmt::print("texcoords:  {}\n", all.texcoords ? "per vertex" : "none");
+  printAppearance(all);
   fmt::print("size:       {:.6g} x {:.6g} x {:.6g} m\n", size.x(), size.y(), size.z());
   fmt::print("from:       {:.6g} {:.6g} {:.6g} m\n", from.x(), from.y(), from.z());
   fmt::print("to:         {:.6g} {:.6g} {:.6g} m\n", to.x(), to.y(), to.z());

@@ -20,6 +20,7 @@
 #include "io/load_model.h"
 #include "io/only_file.h"
 #include "io/own_folder.h"
+#include "io/read_appearance.h"
 #include "io/sandbox.h"
 #include "io/text_words.h"
 #include "io/x3d_bodies.h"
@@ -88,6 +89,7 @@ struct Import {
   const aiScene& scene;
   const GltfHaptics& haptics;
   Model& model;
+  AppearanceReader& appearance;
 };
 
 // A node without a material of its own has that of its parent.
@@ -96,8 +98,12 @@ void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& paren
   const Eigen::Matrix4d to_world = parent * matrixOf(node.mTransformation);
   const auto own = import.haptics.material_of_node.find(node.mName.C_Str());
   if (own != import.haptics.material_of_node.end()) material = static_cast<std::uint16_t>(own->second);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i)
-    appendMesh(import.model, *import.scene.mMeshes[node.mMeshes[i]], to_world, material);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& mesh = *import.scene.mMeshes[node.mMeshes[i]];
+    const std::size_t before = import.model.triangles.size();
+    appendMesh(import.model, mesh, to_world, material);
+    import.appearance.add(mesh, import.model.triangles.size() - before);
+  }
   for (unsigned i = 0; i < node.mNumChildren; ++i)
     appendNode(import, *node.mChildren[i], to_world, material, depth + 1);
 }
@@ -182,8 +188,10 @@ void addScene(const Assimp::Importer& importer, const ModelFile& file, const aiS
   if (scene == nullptr && std::string_view(importer.GetErrorString()) == std::bad_alloc().what())
     throw std::bad_alloc();
   if (scene == nullptr) throw Error("cannot be understood: " + saidOf(file, importer.GetErrorString()));
-  Import import{*scene, haptics, model};
+  AppearanceReader appearance(*scene, file);
+  Import import{*scene, haptics, model, appearance};
   if (scene->mRootNode != nullptr) appendNode(import, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0, 0);
+  model.appearance = appearance.take(model.warnings);
   addHaptics(model, std::move(haptics));
   if (!anyMesh(*scene, [](const aiMesh& m) { return m.HasNormals(); })) model.normals.clear();
   if (!anyMesh(*scene, [](const aiMesh& m) { return m.HasTextureCoords(0); })) model.texcoords.clear();

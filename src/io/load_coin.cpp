@@ -8,6 +8,9 @@
 #include <Inventor/nodes/SoSeparator.h>
 #include <Inventor/nodes/SoShape.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.h"
 #include "io/load_model.h"
 #include "io/sandbox.h"
@@ -35,7 +38,19 @@ SoCallbackAction::Response beforeShape(void* data, SoCallbackAction* action, con
   return SoCallbackAction::CONTINUE;
 }
 
-std::uint32_t addVertex(Collector& collector, const SoPrimitiveVertex* vertex) {
+// Of the material there; textures are left out.
+Rgb colourOf(SoCallbackAction& action, const SoPrimitiveVertex& vertex) {
+  SbColor ambient, diffuse, specular, emission;
+  float shininess = 0, transparency = 0;
+  action.getMaterial(ambient, diffuse, specular, emission, shininess, transparency, vertex.getMaterialIndex());
+  const auto byte = [&](int i) {
+    const float part = diffuse[i];
+    return part > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(part, 1.0F))) : std::uint8_t{0};
+  };
+  return {byte(0), byte(1), byte(2)};
+}
+
+std::uint32_t addVertex(Collector& collector, SoCallbackAction& action, const SoPrimitiveVertex* vertex) {
   SbVec3f position;
   SbVec3f normal;
   collector.to_world.multVecMatrix(vertex->getPoint(), position);
@@ -45,28 +60,29 @@ std::uint32_t addVertex(Collector& collector, const SoPrimitiveVertex* vertex) {
   const Vec3 n = Vec3(normal[0], normal[1], normal[2]).normalized();
   model.normals.push_back(n.allFinite() ? n : Vec3(Vec3::Zero()));
   model.texcoords.emplace_back(vertex->getTextureCoords()[0], vertex->getTextureCoords()[1]);
+  model.appearance.vertex_colours.push_back(colourOf(action, *vertex));
   return static_cast<std::uint32_t>(model.positions.size() - 1);
 }
 
-void addTriangle(void* data, SoCallbackAction*, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b,
+void addTriangle(void* data, SoCallbackAction* action, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b,
                  const SoPrimitiveVertex* c) {
   auto& collector = *static_cast<Collector*>(data);
-  const std::uint32_t first = addVertex(collector, a);
-  addVertex(collector, b);
-  addVertex(collector, c);
+  const std::uint32_t first = addVertex(collector, *action, a);
+  addVertex(collector, *action, b);
+  addVertex(collector, *action, c);
   collector.model.triangles.push_back({first, first + 1, first + 2});
 }
 
-void addSegment(void* data, SoCallbackAction*, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b) {
+void addSegment(void* data, SoCallbackAction* action, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b) {
   auto& collector = *static_cast<Collector*>(data);
-  const std::uint32_t first = addVertex(collector, a);
-  addVertex(collector, b);
+  const std::uint32_t first = addVertex(collector, *action, a);
+  addVertex(collector, *action, b);
   collector.model.segments.push_back({first, first + 1});
 }
 
-void addPoint(void* data, SoCallbackAction*, const SoPrimitiveVertex* a) {
+void addPoint(void* data, SoCallbackAction* action, const SoPrimitiveVertex* a) {
   auto& collector = *static_cast<Collector*>(data);
-  collector.model.points.push_back(addVertex(collector, a));
+  collector.model.points.push_back(addVertex(collector, *action, a));
 }
 
 }  // namespace

@@ -75,6 +75,26 @@ Texture decodePng(const std::string& bytes) {
                                 : decodeRgba<std::uint8_t>(*png, header, SPNG_FMT_RGBA8);
 }
 
+ImageSize sizeOfPng(const std::string& bytes) {
+  const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png(spng_ctx_new(0), &spng_ctx_free);
+  if (!png) throw std::bad_alloc();
+  checkPng(spng_set_png_buffer(png.get(), bytes.data(), bytes.size()));
+  spng_ihdr header{};
+  checkPng(spng_get_ihdr(png.get(), &header));
+  return {header.width, header.height};
+}
+
+ImageSize sizeOfJpeg(const std::string& bytes) {
+  const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitDecompress(), &tjDestroy);
+  if (!jpeg) throw std::bad_alloc();
+  int width = 0, height = 0, subsampling = 0, colours = 0;
+  const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
+  const auto size = static_cast<unsigned long>(bytes.size());
+  if (tjDecompressHeader3(jpeg.get(), data, size, &width, &height, &subsampling, &colours) != 0)
+    throw Error(kNoJpeg + std::string(tjGetErrorStr2(jpeg.get())));
+  return {static_cast<unsigned>(width), static_cast<unsigned>(height)};
+}
+
 // A torn file is no sound one, though the library would fill it up with grey: it says so by its return value.
 Texture decodeJpeg(const std::string& bytes) {
   const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitDecompress(), &tjDestroy);
@@ -101,6 +121,12 @@ void checkIsImage(const std::string& path) {
 }
 
 }  // namespace
+
+ImageSize sizeOfImage(const std::string& bytes) {
+  if (bytes.starts_with("\x89PNG")) return sizeOfPng(bytes);
+  if (bytes.starts_with("\xff\xd8")) return sizeOfJpeg(bytes);
+  throw Error("is no PNG or JPEG file");
+}
 
 Texture readImage(const std::string& path) {
   checkIsImage(path);

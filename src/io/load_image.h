@@ -12,7 +12,14 @@ namespace hl {
 /// depth. The lowest row of the picture is v = 0. Decodes in a child process, like model files. Throws hl::Error.
 Texture loadImage(const std::string& path);
 
-/// The same, in a process that reads a foreign file already (isolated.h).
+/// Pixels.
+struct ImageSize {
+  unsigned width = 0, height = 0;
+};
+/// By the header of a PNG or JPEG file, whatever its name. Throws hl::Error for other bytes.
+ImageSize sizeOfImage(const std::string& bytes);
+
+/// The same as loadImage(), in a process that reads a foreign file already (isolated.h).
 Texture readImage(const std::string& path);
 
 }  // namespace hl

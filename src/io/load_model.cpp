@@ -33,19 +33,22 @@ void checkReadable(const std::string& path) {
   if (std::filesystem::file_size(path, error) == 0) throw Error(path + ": is empty");
 }
 
-// Removes the elements that are bad, and their materials where there are any; returns how many.
-template <typename List, typename Bad>
-std::size_t dropWhere(List& elements, std::vector<std::uint16_t>& materials, Bad bad) {
+// Removes the elements that are bad, and their numbers in lists that have one for each; returns how many.
+template <typename List, typename Bad, typename... Numbers>
+std::size_t dropWhere(List& elements, Bad bad, Numbers&... numbers) {
   std::size_t kept = 0;
+  const auto move_number = [&](auto& list, std::size_t from) {
+    if (from < list.size()) list[kept] = list[from];
+  };
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (bad(elements[i])) continue;
     elements[kept] = elements[i];
-    if (i < materials.size()) materials[kept] = materials[i];
+    (move_number(numbers, i), ...);
     ++kept;
   }
   const std::size_t dropped = elements.size() - kept;
   elements.resize(kept);
-  materials.resize(std::min(kept, materials.size()));
+  (numbers.resize(std::min(kept, numbers.size())), ...);
   return dropped;
 }
 
@@ -53,10 +56,12 @@ std::size_t dropWhere(List& elements, std::vector<std::uint16_t>& materials, Bad
 void dropBadIndices(Model& model) {
   const auto bad = [&](std::uint32_t index) { return index >= model.positions.size(); };
   const std::size_t dropped =
-      dropWhere(model.triangles, model.triangle_materials,
-                [&](const auto& t) { return bad(t[0]) || bad(t[1]) || bad(t[2]); }) +
-      dropWhere(model.segments, model.segment_materials, [&](const auto& s) { return bad(s[0]) || bad(s[1]); }) +
-      dropWhere(model.points, model.point_materials, bad);
+      dropWhere(
+          model.triangles, [&](const auto& t) { return bad(t[0]) || bad(t[1]) || bad(t[2]); }, model.triangle_materials,
+          model.appearance.triangle_paints) +
+      dropWhere(
+          model.segments, [&](const auto& s) { return bad(s[0]) || bad(s[1]); }, model.segment_materials) +
+      dropWhere(model.points, bad, model.point_materials);
   if (dropped > 0)
     model.warnings.push_back("skipped " + std::to_string(dropped) + " elements with vertices that do not exist");
 }
@@ -92,6 +97,7 @@ void makeSound(Model& model) {
   dropBadIndices(model);
   keepFinite(model.normals, model.positions.size());
   keepFinite(model.texcoords, model.positions.size());
+  dropPlainAppearance(model.appearance);
   // Both readers keep coordinates as float, whatever the file has.
   model.reading = {weldVertices(model), true};
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "base/error.h"
@@ -42,7 +45,7 @@ void append(const google::protobuf::RepeatedField<Number>& in, std::vector<Item>
   if (count > 0) std::copy_n(in.data(), count, reinterpret_cast<Number*>(items.data() + before));
 }
 
-void appendMaterials(const google::protobuf::RepeatedField<std::uint32_t>& in, std::vector<std::uint16_t>& numbers) {
+void appendNumbers(const google::protobuf::RepeatedField<std::uint32_t>& in, std::vector<std::uint16_t>& numbers) {
   for (const std::uint32_t number : in) {
     if (number > kMaxNumberedMaterials) throw Error(kBrokenMesh);
     numbers.push_back(static_cast<std::uint16_t>(number));
@@ -70,6 +73,50 @@ bool listsAgree(const Model& model) {
          model.segment_materials.size() <= model.segments.size() && model.point_materials.size() <= model.points.size();
 }
 
+// An appearance is small but for its lists; pictures go one with each part.
+void addAppearance(const Appearance& appearance, std::size_t part, proto::RecordedShape& out) {
+  const auto& colours = appearance.vertex_colours;
+  const std::size_t begin = std::min(part * kItemsInPart, colours.size());
+  const std::size_t count = std::min(kItemsInPart, colours.size() - begin);
+  if (count > 0) out.set_vertex_colours(colours[begin].data(), count * sizeof(Rgb));
+  addPart(appearance.triangle_paints, part, *out.mutable_triangle_paints());
+  if (part < appearance.pictures.size()) {
+    proto::RecordedPicture& picture = *out.add_pictures();
+    picture.set_file(*appearance.pictures[part].file);
+    picture.set_clamp(appearance.pictures[part].wrap == Wrap::kClamp);
+  }
+  if (part > 0) return;
+  for (const Paint& paint : appearance.paints) {
+    proto::RecordedPaint& each = *out.add_paints();
+    each.set_colour(packRgb(paint.colour));
+    if (paint.picture) each.set_picture(*paint.picture);
+  }
+}
+
+void appendAppearance(const proto::RecordedShape& part, Appearance& appearance) {
+  const std::string& colours = part.vertex_colours();
+  if (colours.size() % sizeof(Rgb) != 0) throw Error(kBrokenMesh);
+  for (std::size_t i = 0; i < colours.size(); i += sizeof(Rgb)) {
+    const auto channel = [&](std::size_t n) { return static_cast<std::uint8_t>(colours[i + n]); };
+    appearance.vertex_colours.push_back({channel(0), channel(1), channel(2)});
+  }
+  appendNumbers(part.triangle_paints(), appearance.triangle_paints);
+  for (const proto::RecordedPicture& picture : part.pictures())
+    appearance.pictures.push_back(
+        {std::make_shared<const std::string>(picture.file()), picture.clamp() ? Wrap::kClamp : Wrap::kRepeat});
+  for (const proto::RecordedPaint& paint : part.paints())
+    appearance.paints.push_back(
+        {unpackRgb(paint.colour()), paint.has_picture() ? std::optional(paint.picture()) : std::nullopt});
+}
+
+std::size_t bytesOfAppearance(const proto::RecordedShape& part) {
+  std::size_t bytes = part.vertex_colours().size() +
+                      static_cast<std::size_t>(part.triangle_paints_size()) * sizeof(std::uint16_t) +
+                      static_cast<std::size_t>(part.paints_size()) * sizeof(Paint);
+  for (const proto::RecordedPicture& picture : part.pictures()) bytes += sizeof(Picture) + picture.file().size();
+  return bytes;
+}
+
 template <typename Number>
 std::size_t bytesOf(const google::protobuf::RepeatedField<Number>& list) {
   return static_cast<std::size_t>(list.size()) * sizeof(Number);
@@ -78,19 +125,21 @@ std::size_t bytesOf(const google::protobuf::RepeatedField<Number>& list) {
 std::size_t bytesOf(const proto::RecordedShape& part) {
   return bytesOf(part.positions()) + bytesOf(part.normals()) + bytesOf(part.texcoords()) + bytesOf(part.triangles()) +
          bytesOf(part.segments()) + bytesOf(part.points()) + bytesOf(part.triangle_materials()) +
-         bytesOf(part.segment_materials()) + bytesOf(part.point_materials());
+         bytesOf(part.segment_materials()) + bytesOf(part.point_materials()) + bytesOfAppearance(part);
 }
 
 std::size_t longestList(const Model& model) {
   return std::max({model.positions.size(), model.normals.size(), model.texcoords.size(), model.triangles.size(),
                    model.segments.size(), model.points.size(), model.triangle_materials.size(),
-                   model.segment_materials.size(), model.point_materials.size()});
+                   model.segment_materials.size(), model.point_materials.size(),
+                   model.appearance.triangle_paints.size(), model.appearance.vertex_colours.size()});
 }
 
 }  // namespace
 
 void writeMesh(const Model& model, const std::function<void(proto::RecordedShape& part)>& take) {
-  const std::size_t parts = std::max<std::size_t>(1, (longestList(model) + kItemsInPart - 1) / kItemsInPart);
+  const std::size_t parts = std::max(
+      {std::size_t{1}, (longestList(model) + kItemsInPart - 1) / kItemsInPart, model.appearance.pictures.size()});
   proto::RecordedShape out;
   for (std::size_t i = 0; i < parts; ++i) {
     out.Clear();
@@ -106,6 +155,7 @@ void writeMesh(const Model& model, const std::function<void(proto::RecordedShape
     addPart(model.triangle_materials, i, *out.mutable_triangle_materials());
     addPart(model.segment_materials, i, *out.mutable_segment_materials());
     addPart(model.point_materials, i, *out.mutable_point_materials());
+    addAppearance(model.appearance, i, out);
     take(out);
   }
 }
@@ -123,13 +173,15 @@ void MeshReader::add(const proto::RecordedShape& part) {
   append(part.triangles(), model_.triangles);
   append(part.segments(), model_.segments);
   append(part.points(), model_.points);
-  appendMaterials(part.triangle_materials(), model_.triangle_materials);
-  appendMaterials(part.segment_materials(), model_.segment_materials);
-  appendMaterials(part.point_materials(), model_.point_materials);
+  appendNumbers(part.triangle_materials(), model_.triangle_materials);
+  appendNumbers(part.segment_materials(), model_.segment_materials);
+  appendNumbers(part.point_materials(), model_.point_materials);
+  appendAppearance(part, model_.appearance);
 }
 
 Model MeshReader::take() {
   if (!listsAgree(model_)) throw Error(kBrokenMesh);
+  if (!model_.appearance.fits(model_.triangles.size(), model_.positions.size())) throw Error(kBrokenMesh);
   if (!inRange(model_)) throw Error("a mesh makes no sense: it has elements with vertices that do not exist");
   if (!finite(model_.normals) || !finite(model_.texcoords))
     throw Error("a mesh makes no sense: a normal or texture coordinate is no number");

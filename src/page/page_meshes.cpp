@@ -34,7 +34,9 @@ std::uint64_t messageBytes(const Model& model, const Look& look) {
       2 * sizeof(float) * model.texcoords.size() +
       sizeof(std::uint32_t) * (3 * model.triangles.size() + 2 * model.segments.size() + model.points.size()) +
       sizeof(std::uint16_t) * model.triangle_materials.size();
-  return bytes + texelsOf(look);
+  std::uint64_t shown = model.appearance.empty() ? 0 : sizeof(Rgb) * model.positions.size();
+  for (const Picture& picture : model.appearance.pictures) shown += picture.file->size();
+  return bytes + texelsOf(look) + shown;
 }
 
 // Of a surface that is no mesh a page draws so many triangles, or a few more: it is felt exactly, and drawn as finely
@@ -43,15 +45,11 @@ constexpr std::size_t kMaxDrawn = 1'000'000;
 // One that changes at once, perhaps again and again, must be drawn soon.
 constexpr std::size_t kMaxDrawnSoon = 100'000;
 
-struct Drawn {
-  Model model;
-  std::vector<Rgb> colours;
-};
-
-Drawn drawnOf(const Shape& shape, std::size_t most) {
+ColouredModel drawnOf(const Shape& shape, std::size_t most) {
+  if (!shape.source) return colouredModel(shape.model);
   DrawnMesh drawn = shape.source->drawn(most);
-  Drawn result{{}, std::move(drawn.colours)};
-  Model& model = result.model;
+  ColouredModel result{Model{}, std::move(drawn.colours)};
+  Model& model = *result.model;
   model.positions = std::move(drawn.positions);
   model.normals = std::move(drawn.normals);
   model.texcoords = std::move(drawn.texcoords);
@@ -74,8 +72,8 @@ std::uint64_t messageBytes(const Shape& shape, const Look& look, std::size_t mos
   return kSmallest + each * std::min<std::uint64_t>(drawn, most_drawn) + texelsOf(look);
 }
 
-std::string meshMessage(std::uint32_t number, const Shape& shape, const Drawn& drawn, const Look& look) {
-  const Model& model = shape.source ? drawn.model : shape.model;
+std::string meshMessage(std::uint32_t number, const Shape& shape, const ColouredModel& drawn, const Look& look) {
+  const Model& model = drawn.model ? *drawn.model : shape.model;
   proto::ServerMessage message;
   proto::SceneMesh& out = *message.mutable_mesh();
   out.set_number(number);
@@ -120,7 +118,7 @@ PageMeshes::Made PageMeshes::make(std::uint32_t number, const Mesh& mesh, std::s
                   std::to_string(most_bytes_ / 1'000'000) + " MB at most: show it in several objects");
     MemoryShare memory(memory_);
     memory.take(2 * bytes);  // the message is put together and then written
-    const Drawn drawn = shape.source ? drawnOf(shape, most_drawn) : Drawn{};
+    const ColouredModel drawn = drawnOf(shape, most_drawn);
     auto message = std::make_shared<const std::string>(meshMessage(number, shape, drawn, look));
     memory.set(kSmallest + message->capacity());
     return {number, withShare(std::move(message), std::move(memory)), {}};

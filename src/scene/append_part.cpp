@@ -25,6 +25,8 @@ void appendPart(Model& whole, const Model& part, std::uint16_t material) {
   whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
   appendPerVertex(whole.normals, part.normals, before, part.positions.size());
   appendPerVertex(whole.texcoords, part.texcoords, before, part.positions.size());
+  appendAppearance(whole.appearance, whole.triangles.size(), before, part.appearance, part.triangles.size(),
+                   part.positions.size());
   for (const auto& t : part.triangles) whole.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
   for (const auto& s : part.segments) whole.segments.push_back({s[0] + base, s[1] + base});
   for (const std::uint32_t p : part.points) whole.points.push_back(p + base);

@@ -75,7 +75,7 @@ std::size_t meshBytes(const Model& model) {
 
 std::size_t surfaceBytes(const Model& model) {
   return bytesOf(model.normals) + bytesOf(model.texcoords) + bytesOf(model.triangle_materials) +
-         bytesOf(model.segment_materials) + bytesOf(model.point_materials);
+         bytesOf(model.segment_materials) + bytesOf(model.point_materials) + model.appearance.bytes();
 }
 
 bool sameButTurned(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
@@ -256,7 +256,7 @@ std::size_t bytesToMake(const Model& model) {
   const ModelCounts counts{model.positions.size(), model.normals.size(),  model.texcoords.size(),
                            model.triangles.size(), model.segments.size(), model.points.size()};
   return bytesToMake(counts) + bytesOf(model.triangle_materials) + bytesOf(model.segment_materials) +
-         bytesOf(model.point_materials);
+         bytesOf(model.point_materials) + model.appearance.bytes();
 }
 
 std::size_t Shape::geometryBytes() const {

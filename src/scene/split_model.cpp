@@ -47,6 +47,10 @@ Model sliceOf(const Model& whole, const ModelPart& part, const PartBegin& at) {
   model.triangles = slice(whole.triangles, at.triangle, part.triangles);
   model.segments = slice(whole.segments, at.segment, part.segments);
   model.materials = whole.materials;
+  model.appearance.pictures = whole.appearance.pictures;
+  model.appearance.paints = whole.appearance.paints;
+  model.appearance.triangle_paints = slice(whole.appearance.triangle_paints, at.triangle, part.triangles);
+  model.appearance.vertex_colours = slice(whole.appearance.vertex_colours, at.vertex, part.vertices);
   model.textures = whole.textures;
   const auto moved = [&](auto& elements) {
     for (auto& element : elements) {

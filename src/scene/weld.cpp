@@ -96,6 +96,7 @@ std::size_t weldVertices(Model& model) {
   keepFirst(model.positions, numbering);
   keepFirst(model.normals, numbering);
   keepFirst(model.texcoords, numbering);
+  keepFirst(model.appearance.vertex_colours, numbering);
   return before - numbering.count;
 }
 

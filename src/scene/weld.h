@@ -9,7 +9,8 @@
 namespace hl {
 
 /// Joins vertices with the same bits of position, normal and texture coordinate. Elements keep their order and
-/// positions, so the forces are the same bit by bit. Vertices keep the order of their first use in the list. O(n).
+/// positions, so the forces are the same bit by bit. Vertices keep the order of their first use in the list, and of
+/// several colours the first. O(n).
 /// Returns the number of vertices removed. An index out of range stays out of range.
 std::size_t weldVertices(Model& model);
 

@@ -77,6 +77,64 @@ TEST(SurfaceImages, HeightsAndDepthImagesShowTheirs) {
   }
 }
 
+// Two triangles of four vertices, each of a paint of its own.
+Model twoPaints() {
+  Model model;
+  model.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  model.texcoords = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  model.triangles = {{0, 1, 2}, {1, 3, 2}};
+  model.appearance.paints = {{{255, 0, 0}, {}}, {{0, 0, 255}, {}}};
+  model.appearance.triangle_paints = {0, 1};
+  return model;
+}
+
+TEST(SurfaceImages, AVertexOfTwoColoursIsThereTwice) {
+  Model model = twoPaints();
+  const ColouredModel split = colouredModel(model);
+  ASSERT_TRUE(split.model);
+  ASSERT_EQ(split.colours.size(), 6U) << "two of the four are those of both triangles";
+  ASSERT_EQ(split.model->positions.size(), 6U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = split.model->triangles[i][k];
+      EXPECT_EQ(split.colours[v], model.appearance.paints[i].colour);
+      EXPECT_EQ(split.model->positions[v], model.positions[model.triangles[i][k]]);
+      EXPECT_EQ(split.model->texcoords[v], model.texcoords[model.triangles[i][k]]);
+    }
+  }
+  model.appearance.paints[1] = model.appearance.paints[0];
+  const ColouredModel one = colouredModel(model);
+  EXPECT_FALSE(one.model);
+  EXPECT_EQ(one.colours, std::vector<Rgb>(4, {255, 0, 0}));
+  model.appearance.vertex_colours = {{0, 0, 0}, {128, 9, 9}, {255, 255, 255}, {51, 0, 0}};
+  EXPECT_EQ(colouredModel(model).colours, (std::vector<Rgb>{{0, 0, 0}, {128, 0, 0}, {255, 0, 0}, {51, 0, 0}}));
+}
+
+// A texture that is felt hides the picture there.
+TEST(SurfaceImages, TrianglesShowThePicturesOfTheirFile) {
+  Model model = twoPaints();
+  model.appearance.pictures = {{std::make_shared<const std::string>("a"), Wrap::kRepeat},
+                               {std::make_shared<const std::string>("b"), Wrap::kClamp}};
+  model.appearance.paints = {{{255, 255, 255}, 1}, {{255, 255, 255}, 0}};
+  EXPECT_TRUE(colouredModel(model).colours.empty());
+  proto::SceneMesh mesh;
+  addSurfaceImages(model, {}, mesh);
+  ASSERT_EQ(mesh.images_size(), 2);
+  EXPECT_EQ(mesh.images(0).file(), "b");
+  EXPECT_TRUE(mesh.images(0).clamp());
+  EXPECT_EQ(mesh.images(1).file(), "a");
+  ASSERT_EQ(mesh.parts_size(), 2);
+  EXPECT_EQ(mesh.parts(1).first_triangle(), 1U);
+  EXPECT_EQ(mesh.parts(1).image(), 1U);
+  const Look felt{std::make_shared<const Texture>(makeTexture("checker", 2))};
+  mesh.Clear();
+  addSurfaceImages(model, felt, mesh);
+  ASSERT_EQ(mesh.images_size(), 1);
+  EXPECT_EQ(mesh.images(0).texels().size(), 4U);
+  ASSERT_EQ(mesh.parts_size(), 1);
+  EXPECT_EQ(mesh.parts(0).triangles(), 2U);
+}
+
 // Of the points that are drawn: six corners of a disc each.
 TEST(SurfaceImages, CloudsShowTheirColours) {
   SceneModel scene;

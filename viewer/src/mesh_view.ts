@@ -2,7 +2,8 @@
 // each. All parts share one vertex buffer.
 
 import * as THREE from "three";
-import { imageTexture } from "./image_texture";
+import type { SurfaceImage } from "./gen/hl_pb";
+import { imageTexture, pictureTexture } from "./image_texture";
 import { kPoseNumbers, type Bounds, type Mesh } from "./scene_messages";
 import { RayTree, type Accept } from "./ray_tree";
 import { length, type Vec } from "./vec";
@@ -52,8 +53,11 @@ export class MeshView {
   /** Made when the first ray comes. */
   private tree_: RayTree | undefined;
   private readonly bounds_: THREE.Box3;
-  /** The plain one, then one for each texture. */
+  /** The plain one, then one for each texture or picture. */
   private readonly materials_: THREE.MeshStandardMaterial[] = [];
+  /** Those of them that have the colours of the model's file. */
+  private readonly own_ = new Set<THREE.MeshStandardMaterial>();
+  private disposed_ = false;
   private readonly geometries_: THREE.BufferGeometry[] = [];
   private readonly hasNormals_: boolean;
   private readonly surfaceGeometry_: THREE.BufferGeometry | undefined;
@@ -160,7 +164,7 @@ export class MeshView {
 
   applyTheme(): void {
     const { model } = this.palette_;
-    this.materials_.forEach((material) => material.color.copy(material.vertexColors ? kUntouched : model));
+    this.materials_.forEach((material) => material.color.copy(this.own_.has(material) ? kUntouched : model));
     for (const place of this.colours_.keys()) {
       this.setMark(place, "none");
     }
@@ -206,6 +210,7 @@ export class MeshView {
   }
 
   dispose(): void {
+    this.disposed_ = true;
     this.group.removeFromParent();
     this.surface_?.dispose();
     this.geometries_.forEach((geometry) => geometry.dispose());
@@ -218,7 +223,7 @@ export class MeshView {
   /** What the surface's colour is multiplied by at a place that nothing marks. */
   private factorOf(place: number): THREE.Color {
     const colour = this.colours_.get(place);
-    if (colour === undefined || this.materials_[0]!.vertexColors) {
+    if (colour === undefined || this.own_.size > 0) {
       return kUntouched;
     }
     const { r, g, b } = this.palette_.model;
@@ -245,10 +250,6 @@ export class MeshView {
   /** Normals, and for textured triangles the material of their image. */
   private dress(mesh: Mesh, geometry: THREE.BufferGeometry): void {
     this.materials_.push(surfaceMaterial());
-    if (mesh.colours !== undefined) {
-      geometry.setAttribute("color", new THREE.BufferAttribute(linearColours(mesh.colours), 3, true));
-      this.materials_[0]!.vertexColors = true;
-    }
     if (mesh.normals !== undefined) {
       orientTowardNormals(mesh.positions, mesh.normals, mesh.triangles);
       geometry.setAttribute("normal", new THREE.BufferAttribute(mesh.normals, 3));
@@ -263,9 +264,34 @@ export class MeshView {
     geometry.addGroup(3 * next, mesh.triangles.length - 3 * next, 0);
     if (mesh.texcoords !== undefined) {
       geometry.setAttribute("uv", new THREE.BufferAttribute(mesh.texcoords, 2));
-      this.materials_.push(...mesh.looks.map((look) => surfaceMaterial(imageTexture(look.image))));
+      this.materials_.push(...mesh.looks.map((look) => this.materialOf(look.image)));
+    }
+    if (mesh.colours !== undefined) {
+      geometry.setAttribute("color", new THREE.BufferAttribute(linearColours(mesh.colours), 3, true));
+      for (const material of this.materials_) {
+        material.vertexColors = true;
+        this.own_.add(material);
+      }
     }
     this.applyTheme();
+  }
+
+  /** A picture appears when the browser has read it. */
+  private materialOf(image: SurfaceImage): THREE.MeshStandardMaterial {
+    if (image.file.length === 0) {
+      return surfaceMaterial(imageTexture(image));
+    }
+    const material = surfaceMaterial();
+    this.own_.add(material);
+    void pictureTexture(image).then((texture) => {
+      if (texture === undefined || this.disposed_) {
+        texture?.dispose();
+        return;
+      }
+      material.map = texture;
+      material.needsUpdate = true;
+    });
+    return material;
   }
 
   /** Room for twice as many as before, so that a scene that grows one by one is not copied each time. */

@@ -15,7 +15,7 @@ export interface Bounds {
   readonly max: Vec;
 }
 
-/** A texture to show, and the runs of triangles that show it. */
+/** A texture or a picture to show, and the runs of triangles that show it. */
 export interface SurfaceLook {
   readonly image: SurfaceImage;
   readonly runs: readonly { readonly first: number; readonly count: number }[];
@@ -160,7 +160,8 @@ function checkLooks(mesh: SceneMesh, vertices: number): { texcoords: Float32Arra
     throw new ProtocolError("the scene has not one texture coordinate per vertex");
   }
   const looks = mesh.images.map((image) => {
-    if (image.width < 1 || image.height < 1 || image.texels.length !== image.width * image.height) {
+    const texels = image.width * image.height;
+    if (image.file.length === 0 && (texels < 1 || image.texels.length !== texels)) {
       throw new ProtocolError("a texture of the scene is cut short");
     }
     return { image, runs: [] as { first: number; count: number }[] };
