@@ -113,6 +113,11 @@ def textured_heights(programs):
     write(asyncio.run(picture_of_scene(scene, programs)), look.folder / "textured_heights.png")
 
 
+def painted(programs):
+    scene = look.ROOT / "scenes/examples/painted.hl.json"
+    write(asyncio.run(picture_of_scene(scene, programs)), look.folder / "painted.png")
+
+
 # From where the hand comes to the scan, and where it is then held, m: 5 mm within a bone.
 BEGIN_M, HELD_M = (-0.075, 0.037, 0.041), (-0.0295, 0.0207, 0.0161)
 BONE_HU = 370

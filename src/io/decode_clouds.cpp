@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/colour_messages.h"
 #include "surfaces/cloud_maker.h"
 
 namespace hl {
@@ -16,17 +17,6 @@ CloudLook lookOf(const proto::Cloud& in) {
   if (in.reach() != 0) look.reach = in.reach();
   if (in.reach() != 0 && !in.surfels()) throw Error("reach is of surfels, and this cloud is of points");
   return look;
-}
-
-std::vector<Rgb> coloursOf(const proto::Cloud& in) {
-  std::vector<Rgb> colours;
-  colours.reserve(static_cast<std::size_t>(in.colours_size()) / 3);
-  const auto byte = [&](int i) {
-    if (in.colours(i) > 255) throw Error("colours must be whole numbers from 0 to 255");
-    return static_cast<std::uint8_t>(in.colours(i));
-  };
-  for (int i = 0; i + 2 < in.colours_size(); i += 3) colours.push_back({byte(i), byte(i + 1), byte(i + 2)});
-  return colours;
 }
 
 }  // namespace
@@ -52,7 +42,7 @@ std::shared_ptr<const PointCloud> decodeCloud(const proto::Cloud& in) {
   for (int i = 0; i < in.normals_size(); i += 3)
     normals.push_back(packNormal(Vec3(in.normals(i), in.normals(i + 1), in.normals(i + 2))));
   std::size_t skipped = 0;
-  CloudInput input = onFineLattice(positions, normals, skipped, coloursOf(in));
+  CloudInput input = onFineLattice(positions, normals, skipped, coloursIn(in.colours()));
   if (skipped > 0) throw Error("positions must be finite numbers");
   return std::make_shared<const PointCloud>(makeCloud(std::move(input)), lookOf(in));
 }

@@ -10,6 +10,7 @@
 #include "base/direction.h"
 #include "base/error.h"
 #include "bodies/joint_check.h"
+#include "io/colour_messages.h"
 #include "io/decode_patches.h"
 #include "scene/append_part.h"
 
@@ -70,6 +71,8 @@ void SceneDecoder::addVertices(Model& model, const proto::Primitives& in, const 
     fail(where + ".normals", where + ".normals must hold 3 numbers for each vertex");
   if (in.texcoords_size() != 0 && in.texcoords_size() != 2 * count)
     fail(where + ".texcoords", where + ".texcoords must hold 2 numbers for each vertex");
+  if (in.colours_size() != 0 && in.colours_size() != 3 * count)
+    fail(where + ".colours", where + ".colours must hold 3 numbers for each vertex");
   const auto finite = [](double number) { return std::isfinite(number); };
   if (!std::all_of(in.normals().begin(), in.normals().end(), finite))
     fail(where + ".normals", where + ".normals must hold finite numbers");
@@ -83,6 +86,16 @@ void SceneDecoder::addVertices(Model& model, const proto::Primitives& in, const 
     model.normals.push_back(Vec3(in.normals(i), in.normals(i + 1), in.normals(i + 2)).stableNormalized());
   model.texcoords.reserve(static_cast<std::size_t>(in.texcoords_size() / 2));
   for (int i = 0; i < in.texcoords_size(); i += 2) model.texcoords.emplace_back(in.texcoords(i), in.texcoords(i + 1));
+  model.appearance.vertex_colours = colours(in.colours(), where + ".colours");
+}
+
+std::vector<Rgb> SceneDecoder::colours(const google::protobuf::RepeatedField<std::uint32_t>& in,
+                                       const std::string& where) const {
+  try {
+    return coloursIn(in);
+  } catch (const Error& error) {
+    fail(where, where + ": " + error.what());
+  }
 }
 
 void SceneDecoder::addElements(Model& model, const proto::Primitives& in, const std::string& where) const {
@@ -142,7 +155,8 @@ ModelCounts countsOf(const proto::Primitives& in) {
                      .texcoords = of(in.texcoords_size()) / 2,
                      .triangles = of(in.triangles_size()) / 3,
                      .segments = of(in.segments_size()) / 2,
-                     .points = of(in.points_size())};
+                     .points = of(in.points_size()),
+                     .colours = of(in.colours_size()) / 3};
   for (const proto::Polygon& polygon : in.polygons()) counts.triangles += of(polygon.vertices_size());
   if (in.patches_size() == 0) return counts;
   const PatchPlan plan = planOf(in);

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "scene/body_spec.h"
 #include "scene/field_spec.h"
@@ -35,6 +36,8 @@ class SceneDecoder {
   FieldList fields(const google::protobuf::RepeatedPtrField<proto::Field>& in, const std::string& where) const;
   /// Without its bodies, whose names are the caller's.
   JointSpec joint(const proto::Joint& in, const std::string& where) const;
+  /// As coloursIn().
+  std::vector<Rgb> colours(const google::protobuf::RepeatedField<std::uint32_t>& in, const std::string& where) const;
   /// Sets how a texture is read, as the message says.
   void setReading(const proto::TextureImage& in, Texture& texture, const std::string& where) const;
 

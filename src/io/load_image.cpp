@@ -1,5 +1,6 @@
 #include "io/load_image.h"
 
+#include <fmt/core.h>
 #include <spng.h>
 #include <turbojpeg.h>
 
@@ -126,6 +127,29 @@ ImageSize sizeOfImage(const std::string& bytes) {
   if (bytes.starts_with("\x89PNG")) return sizeOfPng(bytes);
   if (bytes.starts_with("\xff\xd8")) return sizeOfJpeg(bytes);
   throw Error("is no PNG or JPEG file");
+}
+
+std::shared_ptr<const std::string> checkedPicture(std::string bytes) {
+  constexpr unsigned kMaxSide = 8192;  // what graphics processors take
+  const ImageSize size = sizeOfImage(bytes);
+  if (size.width > kMaxSide || size.height > kMaxSide)
+    throw Error(fmt::format("has {} x {} pixels, and {} a side are the most", size.width, size.height, kMaxSide));
+  return std::make_shared<const std::string>(std::move(bytes));
+}
+
+std::shared_ptr<const std::string> loadPicture(const std::string& path) {
+  checkIsImage(path);
+  const Model carrier = runIsolated(
+                            path, {},
+                            [&](const auto&) {
+                              Model carrier;
+                              carrier.appearance.pictures.push_back({checkedPicture(contentOf(path).value_or(""))});
+                              return carrier;
+                            },
+                            nullptr)
+                            .model;
+  if (carrier.appearance.pictures.size() != 1) throw Error(path + ": its reader gave no picture");
+  return carrier.appearance.pictures.front().file;
 }
 
 Texture readImage(const std::string& path) {

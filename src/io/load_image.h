@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 #include "scene/texture.h"
@@ -18,6 +19,11 @@ struct ImageSize {
 };
 /// By the header of a PNG or JPEG file, whatever its name. Throws hl::Error for other bytes.
 ImageSize sizeOfImage(const std::string& bytes);
+
+/// The bytes of such a file, for pages to show: at most 8192 pixels a side. Throws hl::Error for others.
+std::shared_ptr<const std::string> checkedPicture(std::string bytes);
+/// The same of a file, which a child process looks at.
+std::shared_ptr<const std::string> loadPicture(const std::string& path);
 
 /// The same as loadImage(), in a process that reads a foreign file already (isolated.h).
 Texture readImage(const std::string& path);

@@ -16,6 +16,7 @@
 #include "io/read_heights.h"
 #include "io/read_volumes.h"
 #include "io/vdb_file.h"
+#include "scene/split_model.h"
 #include "scene/weld.h"
 
 namespace hl {
@@ -165,7 +166,7 @@ Model loadModel(const std::string& path, const LoadOptions& options) {
   as_mesh.mesh = true;
   SceneModel scene = loadModelScene(path, as_mesh);
   if (!scene.surfaces.empty()) throw Error(path + ": is a height field, a volume or a cloud, and no mesh");
-  scene.model.parts.clear();
+  asOneObject(scene.model);
   if (scene.bodies.empty()) return std::move(scene.model);
   scene.model.warnings.emplace_back("its bodies stay where they are: it is read as one object");
   return asOneModel(scene);

@@ -93,6 +93,9 @@ class SceneFile {
   Model shapeOf(const proto::SceneObject& object, const std::string& where);
   Model fileModel(const proto::SceneObject& object, const std::string& where);
   CadMeshing meshingOf(const proto::SceneObject& object, const std::string& where) const;
+  std::optional<Rgb> colourOf(const proto::SceneObject& object, const std::string& where) const;
+  Appearance pictureOn(const proto::SceneObject& object, bool has_texcoords, const std::string& where) const;
+  void paint(const proto::SceneObject& object, const std::string& where, Model& part) const;
   void setMaterial(const proto::SceneObject& object, const std::string& where, const Model& whole,
                    SceneSurface& surface) const;
   void addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene);
@@ -250,6 +253,39 @@ Model SceneFile::shapeOf(const proto::SceneObject& object, const std::string& wh
        where + ": an object needs a file, a builtin, primitives, heights, a volume, a cloud or an implicit surface");
 }
 
+std::optional<Rgb> SceneFile::colourOf(const proto::SceneObject& object, const std::string& where) const {
+  const std::string at = where + ".colour";
+  if (object.colour_size() == 0) return {};
+  if (object.colour_size() != 3) fail(at, at + " must hold 3 numbers: red, green and blue");
+  return decoder_.colours(object.colour(), at).front();
+}
+
+// None: it says of no picture.
+Appearance SceneFile::pictureOn(const proto::SceneObject& object, bool has_texcoords, const std::string& where) const {
+  if (object.picture().empty()) return {};
+  const std::string at = where + ".picture";
+  if (options_.alone) fail(at, at + ": " + kAlone);
+  if (!has_texcoords) fail(at, at + ": it has no texture coordinates, over which a picture could lie");
+  Appearance appearance;
+  try {
+    appearance.pictures.push_back({loadPicture((folder_ / object.picture()).string())});
+  } catch (const Error& error) {
+    fail(at, at + ": " + error.what());
+  }
+  appearance.paints = {{colourOf(object, where).value_or(Rgb{255, 255, 255}), 0}};
+  return appearance;
+}
+
+// In the place of what its own file says.
+void SceneFile::paint(const proto::SceneObject& object, const std::string& where, Model& part) const {
+  const std::optional<Rgb> colour = colourOf(object, where);
+  Appearance appearance = pictureOn(object, !part.texcoords.empty(), where);
+  if (colour && appearance.paints.empty()) appearance.paints = {{*colour, {}}};
+  if (appearance.paints.empty()) return;
+  appearance.triangle_paints.assign(part.triangles.size(), 0);
+  part.appearance = std::move(appearance);
+}
+
 void SceneFile::setMaterial(const proto::SceneObject& object, const std::string& where, const Model& whole,
                             SceneSurface& surface) const {
   surface.material = materialOf(object.material(), where);
@@ -283,6 +319,8 @@ void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string&
   for (SceneSurface& surface : surfaces) {
     const std::string name = object.name().empty() ? where : object.name();
     surface.name = surfaces.size() == 1 ? name : name + " " + surface.name;
+    surface.colour = colourOf(object, where);
+    surface.appearance = pictureOn(object, surface.source->hasTexcoords(), where);
     if (object.has_material() || !object.has_builtin()) setMaterial(object, where + ".material", scene.model, surface);
     scene.surfaces.push_back(std::move(surface));
   }
@@ -408,6 +446,7 @@ SceneModel SceneFile::build() {
     if (primitives > options_.most_primitives)
       fail(where, fmt::format("with {} the scene has more than {} primitives", where, options_.most_primitives));
     repeatTexcoords(part, repeatOf(object.material()));
+    paint(object, where, part);
     if (object.has_body())
       scene.bodies.push_back(bodyOf(std::move(part), object, where, whole));
     else

@@ -1,5 +1,6 @@
-// A model in messages, for recordings and for the process that reads foreign files: a mesh in parts, so that none comes
-// near protobuf's limit of 2 GB, and its appearance, textures and materials. What comes back is the same to the bit, or is refused.
+// A model in messages, for recordings and for the process that reads foreign files: a mesh in parts, so that none
+// comes near protobuf's limit of 2 GB, and its appearance, textures and materials. What comes back is the same to
+// the bit, or is refused.
 #pragma once
 
 #include <recording.pb.h>

@@ -202,6 +202,7 @@ void PartSender::surfaces(const std::vector<SceneSurface>& surfaces) {
     proto::ReadingPart part;
     part.mutable_surface()->set_name(firstLine(surfaces[i].name));
     writeRepeat(surfaces[i].repeat, *part.mutable_surface()->mutable_repeat());
+    if (surfaces[i].colour) part.mutable_surface()->set_colour(packRgb(*surfaces[i].colour));
     send(part);
     look(surfaces[i].textures, {surfaces[i].material});
     sources.write(*surfaces[i].source, i + 1, *this);
@@ -252,6 +253,7 @@ void PartCollector::addSurface(const proto::ReadSurface& surface) {
   if (scene_.surfaces.size() >= kMaxSceneObjects) throw Error("it has too many surfaces");
   scene_.surfaces.push_back({firstLine(surface.name()), nullptr});
   scene_.surfaces.back().repeat = repeatIn(surface.repeat());
+  if (surface.has_colour()) scene_.surfaces.back().colour = unpackRgb(surface.colour());
   in_surface_ = true;
 }
 

@@ -19,7 +19,6 @@ namespace hl {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;  // of all pictures together, as files
-constexpr unsigned kMaxSide = 8192;                        // of a picture, pixels: what graphics processors take
 
 // What exporters write into a name.
 std::string withSlashes(std::string name) {
@@ -35,13 +34,6 @@ float toScreen(float linear) {
 // What is no number is black.
 std::uint8_t byteOf(float part) {
   return part > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(part, 1.0F))) : std::uint8_t{0};
-}
-
-std::shared_ptr<const std::string> checkedPicture(std::string bytes) {
-  const ImageSize size = sizeOfImage(bytes);
-  if (size.width > kMaxSide || size.height > kMaxSide)
-    throw Error(fmt::format("has {} x {} pixels, and {} a side are the most", size.width, size.height, kMaxSide));
-  return std::make_shared<const std::string>(std::move(bytes));
 }
 
 }  // namespace

@@ -55,6 +55,10 @@ ColouredModel drawnOf(const Shape& shape, std::size_t most) {
   model.texcoords = std::move(drawn.texcoords);
   model.triangles = std::move(drawn.triangles);
   repeatTexcoords(model, shape.repeat);
+  if (shape.model.appearance.paints.empty()) return result;
+  model.appearance = shape.model.appearance;
+  model.appearance.triangle_paints.assign(model.triangles.size(), 0);
+  result.colours = colouredModel(model).colours;
   return result;
 }
 
@@ -69,7 +73,8 @@ std::uint64_t messageBytes(const Shape& shape, const Look& look, std::size_t mos
   const std::uint64_t drawn = drawnTriangles(shape);
   const std::uint64_t each = kDrawnTriangle_bytes + (look.empty() ? 0 : kDrawnTexcoords_bytes) +
                              (shape.source->hasColours() ? kDrawnColours_bytes : 0);
-  return kSmallest + each * std::min<std::uint64_t>(drawn, most_drawn) + texelsOf(look);
+  return kSmallest + each * std::min<std::uint64_t>(drawn, most_drawn) + texelsOf(look) +
+         shape.model.appearance.bytes();
 }
 
 std::string meshMessage(std::uint32_t number, const Shape& shape, const ColouredModel& drawn, const Look& look) {

@@ -35,7 +35,7 @@ std::shared_ptr<const Shape> withIso(const Shape& of, const IsoChoice& choice) {
   auto source =
       std::make_shared<const IsoSurface>(before.volume(), before.frame(), choice.over(before.iso()), before.matter());
   const Material material = materialAt(*source, of.model.materials.front());
-  return makeShape(std::move(source), material, of.model.textures);
+  return makeShape(std::move(source), material, of.model.textures, of.repeat, of.model.appearance);
 }
 
 Material materialAt(const IsoSurface& surface, Material material) {

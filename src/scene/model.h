@@ -62,7 +62,7 @@ struct Model {
   std::vector<Material> materials{Material{}};  ///< at least one; elements without a material number use 0
   std::vector<std::uint16_t> triangle_materials, segment_materials, point_materials;  ///< one per element, or empty
   std::vector<Texture> textures;
-  Appearance appearance;  ///< shown, not felt
+  Appearance appearance;              ///< shown, not felt
   std::vector<std::string> warnings;  ///< what was skipped while reading, one line each, with counts
   Reading reading;
   std::vector<ModelPart> parts;  ///< objects that it is made of, one after the other; empty: it is one

@@ -50,10 +50,12 @@ bool isOneModel(const SceneModel& scene) {
 
 Instance instanceOf(SceneSurface surface, std::uint64_t key) {
   Instance instance;
-  if (!surface.name.empty()) instance.label = std::make_shared<const Label>(Label{std::move(surface.name)});
+  if (!surface.name.empty() || surface.colour)
+    instance.label = std::make_shared<const Label>(Label{std::move(surface.name), surface.colour});
   if (const auto* const iso = dynamic_cast<const IsoSurface*>(surface.source.get()))
     surface.material = materialAt(*iso, surface.material);
-  instance.shape = makeShape(std::move(surface.source), surface.material, std::move(surface.textures), surface.repeat);
+  instance.shape = makeShape(std::move(surface.source), surface.material, std::move(surface.textures), surface.repeat,
+                             std::move(surface.appearance));
   instance.surfaces = surfacesOf(instance.shape);
   instance.key = key;
   return instance;

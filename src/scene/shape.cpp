@@ -160,11 +160,12 @@ std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
 }
 
 std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material,
-                                       std::vector<Texture> textures, const Vec2& repeat) {
+                                       std::vector<Texture> textures, const Vec2& repeat, Appearance appearance) {
   auto shape = std::make_shared<Shape>();
   shape->geometry = shape->mesh = nextGeometry();
   shape->model.materials = {material};
   shape->model.textures = std::move(textures);
+  shape->model.appearance = std::move(appearance);
   shape->source = std::move(source);
   shape->repeat = repeat;
   shape->index = shape->source->makeIndex();
@@ -174,7 +175,7 @@ std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> so
 
 std::shared_ptr<const Shape> placedShape(const Shape& shape, const Mat3& linear, const Vec3& offset) {
   return makeShape(shape.source->placed(linear, offset), shape.model.materials.front(), shape.model.textures,
-                   shape.repeat);
+                   shape.repeat, shape.model.appearance);
 }
 
 // The vertices of a triangle may be rotated differently, as the rotation depends on their positions.
@@ -249,7 +250,7 @@ std::size_t bytesToMake(const ModelCounts& counts) {
   const std::size_t elements = counts.triangles + counts.segments + counts.points;
   return kSmallest + sizeof(Vec3) * (counts.vertices + counts.normals) + sizeof(Vec2) * counts.texcoords +
          3 * sizeof(std::uint32_t) * counts.triangles + 2 * sizeof(std::uint32_t) * counts.segments +
-         sizeof(std::uint32_t) * counts.points + hierarchyBytes(kWhileBuilt * elements);
+         sizeof(std::uint32_t) * counts.points + sizeof(Rgb) * counts.colours + hierarchyBytes(kWhileBuilt * elements);
 }
 
 std::size_t bytesToMake(const Model& model) {

@@ -84,9 +84,11 @@ struct Shape {
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
 /// A surface that is not a mesh, with one material and the textures that it uses. `repeat`: factors of its texture
-/// coordinates. Allocates; never called by a real-time thread.
+/// coordinates. `appearance`: the first of its paints is that of all triangles. Allocates; never called by a real-time
+/// thread.
 std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material = {},
-                                       std::vector<Texture> textures = {}, const Vec2& repeat = Vec2::Ones());
+                                       std::vector<Texture> textures = {}, const Vec2& repeat = Vec2::Ones(),
+                                       Appearance appearance = {});
 
 /// A surface that is not a mesh, moved by x -> linear x + offset. Throws hl::Error if it cannot be.
 std::shared_ptr<const Shape> placedShape(const Shape& shape, const Mat3& linear, const Vec3& offset);
@@ -110,7 +112,7 @@ std::array<std::uint32_t, 3> verticesOf(const Shape& shape, ElementId primitive)
 
 /// The sizes of a model that does not exist yet.
 struct ModelCounts {
-  std::size_t vertices = 0, normals = 0, texcoords = 0, triangles = 0, segments = 0, points = 0;
+  std::size_t vertices = 0, normals = 0, texcoords = 0, triangles = 0, segments = 0, points = 0, colours = 0;
 };
 
 /// Upper bound of the memory that makeShape() uses for a model, including the model itself, from the sizes alone.

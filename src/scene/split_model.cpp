@@ -86,6 +86,22 @@ void checkParts(const Model& model) {
   if (rest.vertex + rest.triangle + rest.segment + model.points.size() > 0 || materials) throw Error(kBrokenParts);
 }
 
+void asOneObject(Model& model) {
+  const auto has_colour = [](const ModelPart& part) { return part.colour.has_value(); };
+  if (std::any_of(model.parts.begin(), model.parts.end(), has_colour)) {
+    Appearance& appearance = model.appearance;
+    appearance.paints = {Paint{}};
+    appearance.triangle_paints.clear();
+    for (const ModelPart& part : model.parts) {
+      if (part.colour) appearance.paints.push_back({*part.colour, {}});
+      const std::size_t paint = part.colour ? appearance.paints.size() - 1 : 0;
+      appearance.triangle_paints.resize(appearance.triangle_paints.size() + part.triangles,
+                                        static_cast<std::uint16_t>(paint));
+    }
+  }
+  model.parts.clear();
+}
+
 std::vector<Model> splitModel(Model whole) {
   std::vector<Model> models;
   PartBegin at;

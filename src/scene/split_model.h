@@ -11,6 +11,9 @@ namespace hl {
 /// vertices but its own.
 void checkParts(const Model& model);
 
+/// Makes one object of its parts; their colours become its appearance.
+void asOneObject(Model& model);
+
 /// One for each part, in their order; the model is one that checkParts() accepts and has parts. Warnings and what is
 /// reported of the reading go with the first.
 std::vector<Model> splitModel(Model whole);

@@ -375,7 +375,8 @@ void FrameDecoder::move(const proto::VertexUpdate& in, Model& model, const std::
   memory.take(bytesToBuild(primitives));
   const Model part = decoder_.model(primitives, where);
   const auto finite = [](const Vec3& v) { return v.allFinite(); };
-  if (part.elements() != 0 || !part.texcoords.empty()) throw Error(where + " must hold vertices and normals alone");
+  if (part.elements() != 0 || !part.texcoords.empty() || !part.appearance.empty())
+    throw Error(where + " must hold vertices and normals alone");
   if (!std::all_of(part.positions.begin(), part.positions.end(), finite) ||
       !std::all_of(part.normals.begin(), part.normals.end(), finite))
     throw Error(where + " must hold finite numbers");

@@ -221,9 +221,78 @@ TEST(Appearance, GoesAlongWithItsModel) {
   whole.parts = {{"a", {}, 3, 1, 0}, {"b", {}, 4, 2, 0}, {"c", {}, 7, 3, 0}};
   checkParts(whole);
   const std::vector<Model> parts = splitModel(whole);
+  Model joined = whole;
+  joined.parts[1].colour = Rgb{5, 6, 7};
+  asOneObject(joined);
+  EXPECT_TRUE(joined.parts.empty());
+  EXPECT_EQ(paintOf(joined, 0).colour, (Rgb{255, 255, 255}));
+  EXPECT_EQ(paintOf(joined, 1).colour, (Rgb{5, 6, 7}));
+  EXPECT_EQ(paintOf(joined, 3).colour, (Rgb{255, 255, 255}));
   EXPECT_EQ(parts[1].appearance.vertex_colours.front(), (Rgb{1, 2, 3}));
   EXPECT_EQ(paintOf(parts[1], 0).colour, (Rgb{255, 0, 51}));
   EXPECT_EQ(paintOf(parts[2], 2).picture, std::optional<std::uint32_t>(1));
+}
+
+SceneModel sceneOf(const std::string& objects) {
+  return loadSceneFile(fileWith("scene.hl.json", R"({"objects": [)" + objects + "]}"));
+}
+
+std::string refusalOf(const std::string& objects) {
+  try {
+    sceneOf(objects);
+  } catch (const Error& error) {
+    const std::string line = error.what();
+    return line.substr(line.find(": ") + 2);
+  }
+  return "";
+}
+
+constexpr const char* kSquare =
+    R"("primitives": {"vertices": [0,0,0, 1,0,0, 1,1,0], "triangles": [0,1,2], "texcoords": [0,0, 1,0, 1,1]})";
+constexpr const char* kBare = R"("primitives": {"vertices": [0,0,0, 1,0,0, 1,1,0], "triangles": [0,1,2]})";
+
+TEST(Appearance, SceneFilesGiveColoursAndPictures) {
+  const std::string png = pngOf(4);
+  fileWith("wood.png", png);
+  twoTriangles("newmtl a\nKd 1 0 0.2\nnewmtl b\n");
+  const SceneModel scene = sceneOf(
+      std::string("{") + kSquare + R"(, "picture": "wood.png", "colour": [1, 2, 3]},)" +
+      R"({"file": "two.obj", "colour": [9, 8, 7]}, {"builtin": "sphere:80", "colour": [7, 0, 7], "body": {}},)" +
+      R"({"implicit": {"expression": {"sphere": {"radius": 0.01}}}, "colour": [4, 5, 6]})");
+  EXPECT_EQ(*scene.model.appearance.pictures.at(paintOf(scene.model, 0).picture.value()).file, png);
+  EXPECT_EQ(paintOf(scene.model, 0).colour, (Rgb{1, 2, 3}));
+  for (const std::size_t i : {1, 2}) EXPECT_EQ(paintOf(scene.model, i).colour, (Rgb{9, 8, 7})) << "not of its file";
+  EXPECT_EQ(scene.surfaces.at(0).colour, (Rgb{4, 5, 6}));
+  EXPECT_EQ(paintOf(scene.bodies.at(0).model, 0).colour, (Rgb{7, 0, 7}));
+  const SceneModel coloured = sceneOf(R"({"primitives": {"vertices": [0,0,0, 1,0,0, 1,1,0], "triangles": [0,1,2],
+      "colours": [1,2,3, 4,5,6, 7,8,9]}})");
+  EXPECT_EQ(coloured.model.appearance.vertex_colours, (std::vector<Rgb>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+}
+
+TEST(Appearance, SceneFilesThatGiveItWrongAreRefused) {
+  const std::string bare = std::string("{") + kBare;
+  EXPECT_EQ(refusalOf(bare + R"(, "colour": [1, 2]})"), "objects[0].colour must hold 3 numbers: red, green and blue");
+  EXPECT_EQ(refusalOf(bare + R"(, "colour": [1, 2, 256]})"),
+            "objects[0].colour: colours must be whole numbers from 0 to 255");
+  EXPECT_EQ(refusalOf(bare + R"(, "picture": "wood.png"})"),
+            "objects[0].picture: it has no texture coordinates, over which a picture could lie");
+  EXPECT_NE(refusalOf(std::string("{") + kSquare + R"(, "picture": "nowhere.png"})").find("nowhere.png"),
+            std::string::npos);
+  EXPECT_EQ(refusalOf(R"({"primitives": {"vertices": [0,0,0, 1,0,0, 1,1,0], "triangles": [0,1,2],
+      "colours": [1,2,3]}})"),
+            "objects[0].primitives.colours must hold 3 numbers for each vertex");
+}
+
+// Over a map of heights it lies as a texture does.
+TEST(Appearance, APictureLiesOverAMapOfHeights) {
+  fileWith("wood.png", pngOf(4));
+  fileWith("map.asc", "ncols 3\nnrows 2\ncellsize 1\n0 0 0\n0 1 0\n");
+  const SceneModel scene = sceneOf(R"({"heights": {"file": "map.asc"}, "picture": "wood.png"})");
+  ASSERT_EQ(scene.surfaces.size(), 1U);
+  EXPECT_EQ(scene.surfaces[0].appearance.pictures.size(), 1U);
+  EXPECT_EQ(scene.surfaces[0].appearance.paints.at(0).picture, std::optional<std::uint32_t>(0));
+  EXPECT_EQ(refusalOf(R"({"implicit": {"expression": {"sphere": {"radius": 0.01}}}, "picture": "wood.png"})"),
+            "objects[0].picture: it has no texture coordinates, over which a picture could lie");
 }
 
 }  // namespace

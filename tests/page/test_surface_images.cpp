@@ -135,6 +135,28 @@ TEST(SurfaceImages, TrianglesShowThePicturesOfTheirFile) {
   EXPECT_EQ(mesh.parts(0).triangles(), 2U);
 }
 
+// All of what is drawn of it shows the one paint.
+TEST(SurfaceImages, AMapOfHeightsShowsItsPicture) {
+  SceneModel scene = loadSceneFile(HL_EXAMPLES "/heights.hl.json");
+  ASSERT_FALSE(scene.surfaces.empty());
+  scene.surfaces[0].appearance.pictures = {{std::make_shared<const std::string>("a"), Wrap::kRepeat}};
+  scene.surfaces[0].appearance.paints = {{{255, 0, 0}, 0}};
+  const std::size_t first = scene.model.elements() > 0 ? 1 : 0;
+  const auto snapshot = makeSnapshot(std::move(scene));
+  PageMeshes meshes;
+  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*snapshot, 0);
+  while (!meshes.ready()) std::this_thread::yield();
+  proto::ServerMessage message;
+  ASSERT_TRUE(message.ParseFromString(*meshes.message(numbers.at(first))));
+  const proto::SceneMesh& mesh = message.mesh();
+  ASSERT_EQ(mesh.images_size(), 1);
+  EXPECT_EQ(mesh.images(0).file(), "a");
+  ASSERT_EQ(mesh.parts_size(), 1);
+  EXPECT_EQ(mesh.parts(0).triangles() * 3 * sizeof(std::uint32_t), mesh.triangles().size());
+  EXPECT_EQ(mesh.texcoords().size() * 3, mesh.positions().size() * 2);
+  EXPECT_EQ(mesh.colours().size() * sizeof(float), mesh.positions().size());
+}
+
 // Of the points that are drawn: six corners of a disc each.
 TEST(SurfaceImages, CloudsShowTheirColours) {
   SceneModel scene;

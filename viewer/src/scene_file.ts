@@ -16,7 +16,7 @@ const kPiece = 20_000;
 const kDigits = 9;
 
 const kNoTextures = "The file has no textures: the page does not know them. What they change is as without them.";
-const kNoColours = "The file has no colours.";
+const kNoPictures = "The file has no pictures.";
 const kOneMaterial = "Bodies of several materials have only their first one in the file.";
 const kUnmoved: ArrayLike<number> = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
@@ -67,7 +67,6 @@ function* pieces(store: SceneStore, over: SurfaceSettings, lacking: Set<string>)
   }
   let objects = 0;
   const names = namesOf(layout);
-  if (layout.placed.some(({ colour }) => colour.length > 0)) lacking.add(kNoColours);
   yield '{\n  "objects": [';
   for (const { name, mesh, pose, part, surface, fields } of objectsOf(layout, names, store, lacking)) {
     objects += 1;
@@ -124,10 +123,13 @@ function* objectsOf(
       throw new Error("The scene cannot be saved: the page was not told all its meshes and materials.");
     }
     const name = names[index]!;
+    if (mesh.looks.some(({ image }) => image.file.length > 0)) lacking.add(kNoPictures);
+    const colour = placed.colour.length === 3 ? { colour: Array.from(placed.colour) } : {};
     const pose = store.poses.subarray(kPoseNumbers * index, kPoseNumbers * (index + 1));
     if (body !== undefined) {
       if (materials.length > 1) lacking.add(kOneMaterial);
-      const fields = { transform: transformJson(pose), body: bodyJson(placed), ...placesJson(layout, index, kUnmoved) };
+      const own = { transform: transformJson(pose), body: bodyJson(placed), ...placesJson(layout, index, kUnmoved) };
+      const fields = { ...colour, ...own };
       yield { name, mesh, pose: kUnmoved, part: wholeOf(mesh), surface: materials[0]!, fields };
       continue;
     }
@@ -138,7 +140,7 @@ function* objectsOf(
     for (const [material, surface] of materials.entries()) {
       const part = partOf(mesh, material);
       const full = materials.length > 1 ? `${name}, material ${material + 1}` : name;
-      if (part !== undefined) yield { name: full, mesh, pose, part, surface, fields: {} };
+      if (part !== undefined) yield { name: full, mesh, pose, part, surface, fields: colour };
     }
   }
 }
@@ -195,6 +197,11 @@ function* primitives(mesh: Mesh, pose: ArrayLike<number>, part: Part): Generator
     const normals = mesh.normals;
     yield ",";
     yield* list("normals", 3 * vertices.length, (i) => moved(normals, vertices, pose, i, 0));
+  }
+  const { colours } = mesh;
+  if (colours !== undefined) {
+    yield ",";
+    yield* list("colours", 3 * vertices.length, (i) => colours[3 * vertices[Math.floor(i / 3)]! + (i % 3)]!);
   }
   for (const name of ["triangles", "segments", "points"] as const) {
     const indices = part[name];

@@ -75,6 +75,13 @@ describe("meshes", () => {
     expect(decodeMesh().looks).toEqual([]);
   });
 
+  test("bring pictures, which the browser reads", () => {
+    const picture = create(SurfaceImageSchema, { file: Uint8Array.of(0x89, 0x50) });
+    expect(Array.from(decodeMesh({ ...kTextured, images: [picture] }).looks[0]!.image.file)).toEqual([0x89, 0x50]);
+    const empty = create(SurfaceImageSchema);
+    expect(() => decodeMesh({ ...kTextured, images: [empty] })).toThrow("a texture of the scene is cut short");
+  });
+
   test("bring a colour for each vertex, or none", () => {
     const colours = Uint8Array.of(1, 2, 3, 4, 5, 6, 253, 254, 255);
     expect(Array.from(decodeMesh({ colours }).colours!)).toEqual(Array.from(colours));

@@ -1,7 +1,7 @@
 // The scene as a scene file: geometry where it is now, materials as they are felt now.
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, test } from "vitest";
-import { BodySchema, PlacedMeshSchema } from "../src/gen/hl_pb";
+import { BodySchema, PlacedMeshSchema, SurfaceImageSchema } from "../src/gen/hl_pb";
 import type { Mesh } from "../src/scene_messages";
 import { sceneFile } from "../src/scene_file";
 import { SceneStore } from "../src/scene_store";
@@ -77,15 +77,25 @@ describe("a scene file", () => {
     expect(lacking).toMatch(/only their first one/);
   });
 
-  test("calls objects as their scene does, no two the same, and says that colours are not in it", async () => {
+  test("calls objects as their scene does, no two the same, each with its colour", async () => {
     const store = storeOf(meshOf(), [kMaterial]);
     const placed = ["lid", "", "lid", "object 2"].map((label) =>
       create(PlacedMeshSchema, { mesh: 1, materials: [kMaterial], label, colour: Uint8Array.of(1, 2, 3) }));
     store.setLayout({ ...store.layout!, placed, poses: Float32Array.from(placed.flatMap(() => [...kTurned])) });
     const { content, lacking } = await sceneFile(store, {});
-    const { objects } = JSON.parse(await content.text()) as { objects: { name: string }[] };
+    const { objects } = JSON.parse(await content.text()) as { objects: { name: string; colour: number[] }[] };
     expect(objects.map(({ name }) => name)).toEqual(["lid", "object 2", "lid 2", "object 2 2"]);
-    expect(lacking).toBe("The file has no colours.");
+    expect(objects.map(({ colour }) => colour)).toEqual(Array(4).fill([1, 2, 3]));
+    expect(lacking).toBeUndefined();
+  });
+
+  test("has the colours of the vertices that it has, and says that pictures are not in it", async () => {
+    const colours = Uint8Array.of(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12);
+    const image = create(SurfaceImageSchema, { file: Uint8Array.of(0x89) });
+    const mesh = meshOf({ colours, triangles: Uint32Array.of(0, 2, 3), looks: [{ image, runs: [] }] });
+    const { content, lacking } = await sceneFile(storeOf(mesh, [kMaterial]), {});
+    expect(JSON.parse(await content.text()).objects[0].primitives.colours).toEqual([1, 2, 3, 7, 8, 9, 10, 11, 12]);
+    expect(lacking).toBe("The file has no pictures.");
   });
 
   test("says that textures are not in it, unless the user has set a number in their place", async () => {
