@@ -1,4 +1,4 @@
-// Pictures of textures. The first byte chooses PNG or JPEG.
+// Pictures of textures and models. The first byte chooses PNG or JPEG.
 #include "io/load_image.h"
 #include "refusal.h"
 
@@ -9,6 +9,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const hl::Texture texture = hl::readImage(path);
     hl::fuzz::require(texture.width > 0 && texture.texels.size() == texture.width * texture.height);
     for (const float texel : texture.texels) hl::fuzz::require(texel >= 0 && texel <= 1);
+  });
+  hl::fuzz::takes([&] {
+    const std::string bytes(reinterpret_cast<const char*>(data + 1), size - 1);
+    hl::fuzz::require(*hl::checkedPicture(bytes) == bytes);
   });
   return 0;
 }

@@ -65,53 +65,58 @@ Texture decodeRgba(spng_ctx& png, const spng_ihdr& header, spng_format format) {
   });
 }
 
-Texture decodePng(const std::string& bytes) {
-  const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png(spng_ctx_new(0), &spng_ctx_free);
+using Png = std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)>;
+
+// Of a file in memory, which outlives it.
+Png openPng(const std::string& bytes, spng_ihdr& header) {
+  Png png(spng_ctx_new(0), &spng_ctx_free);
   if (!png) throw std::bad_alloc();
   checkPng(spng_set_png_buffer(png.get(), bytes.data(), bytes.size()));
-  spng_ihdr header{};
   checkPng(spng_get_ihdr(png.get(), &header));
+  return png;
+}
+
+Texture decodePng(const std::string& bytes) {
+  spng_ihdr header{};
+  const Png png = openPng(bytes, header);
   checkSize(header.width, header.height);
   return header.bit_depth == 16 ? decodeRgba<std::uint16_t>(*png, header, SPNG_FMT_RGBA16)
                                 : decodeRgba<std::uint8_t>(*png, header, SPNG_FMT_RGBA8);
 }
 
-ImageSize sizeOfPng(const std::string& bytes) {
-  const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png(spng_ctx_new(0), &spng_ctx_free);
-  if (!png) throw std::bad_alloc();
-  checkPng(spng_set_png_buffer(png.get(), bytes.data(), bytes.size()));
-  spng_ihdr header{};
-  checkPng(spng_get_ihdr(png.get(), &header));
-  return {header.width, header.height};
-}
+class Jpeg {
+ public:
+  // A file in memory, which outlives it.
+  explicit Jpeg(const std::string& bytes)
+      : data_(reinterpret_cast<const unsigned char*>(bytes.data())), size_(static_cast<unsigned long>(bytes.size())) {
+    if (!jpeg_) throw std::bad_alloc();
+    int subsampling = 0, colours = 0;
+    check(tjDecompressHeader3(jpeg_.get(), data_, size_, &width_, &height_, &subsampling, &colours));
+  }
+  std::size_t width() const { return static_cast<std::size_t>(width_); }
+  std::size_t height() const { return static_cast<std::size_t>(height_); }
+  // A torn file is no sound one, though the library would fill it up with grey: it says so by its return value.
+  void decodeGrey(unsigned char* grey) const {
+    check(tjDecompress2(jpeg_.get(), data_, size_, grey, width_, 0, height_, TJPF_GRAY, 0));
+  }
 
-ImageSize sizeOfJpeg(const std::string& bytes) {
-  const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitDecompress(), &tjDestroy);
-  if (!jpeg) throw std::bad_alloc();
-  int width = 0, height = 0, subsampling = 0, colours = 0;
-  const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
-  const auto size = static_cast<unsigned long>(bytes.size());
-  if (tjDecompressHeader3(jpeg.get(), data, size, &width, &height, &subsampling, &colours) != 0)
-    throw Error(kNoJpeg + std::string(tjGetErrorStr2(jpeg.get())));
-  return {static_cast<unsigned>(width), static_cast<unsigned>(height)};
-}
+ private:
+  void check(int code) const {
+    if (code != 0) throw Error(kNoJpeg + std::string(tjGetErrorStr2(jpeg_.get())));
+  }
 
-// A torn file is no sound one, though the library would fill it up with grey: it says so by its return value.
+  const std::unique_ptr<void, decltype(&tjDestroy)> jpeg_{tjInitDecompress(), &tjDestroy};
+  const unsigned char* const data_;
+  const unsigned long size_;
+  int width_ = 0, height_ = 0;
+};
+
 Texture decodeJpeg(const std::string& bytes) {
-  const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitDecompress(), &tjDestroy);
-  if (!jpeg) throw std::bad_alloc();
-  const auto check = [&](int code) {
-    if (code != 0) throw Error(kNoJpeg + std::string(tjGetErrorStr2(jpeg.get())));
-  };
-  int width = 0, height = 0, subsampling = 0, colours = 0;
-  const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
-  const auto size = static_cast<unsigned long>(bytes.size());
-  check(tjDecompressHeader3(jpeg.get(), data, size, &width, &height, &subsampling, &colours));
-  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-  checkSize(columns, rows);
-  std::vector<unsigned char> grey(columns * rows);
-  check(tjDecompress2(jpeg.get(), data, size, grey.data(), width, 0, height, TJPF_GRAY, 0));
-  return textureOf(columns, rows, [&](std::size_t i) { return static_cast<float>(grey[i]) / 255.0f; });
+  const Jpeg jpeg(bytes);
+  checkSize(jpeg.width(), jpeg.height());
+  std::vector<unsigned char> grey(jpeg.width() * jpeg.height());
+  jpeg.decodeGrey(grey.data());
+  return textureOf(jpeg.width(), jpeg.height(), [&](std::size_t i) { return static_cast<float>(grey[i]) / 255.0f; });
 }
 
 void checkIsImage(const std::string& path) {
@@ -124,13 +129,18 @@ void checkIsImage(const std::string& path) {
 }  // namespace
 
 ImageSize sizeOfImage(const std::string& bytes) {
-  if (bytes.starts_with("\x89PNG")) return sizeOfPng(bytes);
-  if (bytes.starts_with("\xff\xd8")) return sizeOfJpeg(bytes);
-  throw Error("is no PNG or JPEG file");
+  if (bytes.starts_with("\x89PNG")) {
+    spng_ihdr header{};
+    openPng(bytes, header);
+    return {header.width, header.height};
+  }
+  if (!bytes.starts_with("\xff\xd8")) throw Error("is no PNG or JPEG file");
+  const Jpeg jpeg(bytes);
+  return {jpeg.width(), jpeg.height()};
 }
 
 std::shared_ptr<const std::string> checkedPicture(std::string bytes) {
-  constexpr unsigned kMaxSide = 8192;  // what graphics processors take
+  constexpr std::size_t kMaxSide = 8192;  // what graphics processors take
   const ImageSize size = sizeOfImage(bytes);
   if (size.width > kMaxSide || size.height > kMaxSide)
     throw Error(fmt::format("has {} x {} pixels, and {} a side are the most", size.width, size.height, kMaxSide));

@@ -15,7 +15,7 @@ Texture loadImage(const std::string& path);
 
 /// Pixels.
 struct ImageSize {
-  unsigned width = 0, height = 0;
+  std::size_t width = 0, height = 0;
 };
 /// By the header of a PNG or JPEG file, whatever its name. Throws hl::Error for other bytes.
 ImageSize sizeOfImage(const std::string& bytes);
