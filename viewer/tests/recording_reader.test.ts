@@ -113,6 +113,38 @@ describe("a recording", () => {
     expect(meshes).toHaveLength(1);
     expect([...meshes[0]!.triangles]).toEqual([0, 1, 2]);
   });
+
+  test("has meshes in the colours and pictures of their files", async () => {
+    const square = { id: 1n, materials: 1, positions: [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0], triangles: [0, 1, 2, 1, 3, 2] };
+    const of = async (look: object) => {
+      const shape: BlockBody = { case: "shape", value: { ...square, ...look } };
+      return (await read(fileOf(kStart, shape, kSurfaces, kScene, ticks(3), steps(3)))).meshes[0]!;
+    };
+    const paints = [{ colour: 0xff0000 }, { colour: 0x0000ff }];
+    const two = await of({ trianglePaints: [0, 1], paints });
+    expect(two.positions).toHaveLength(3 * 6);
+    [...two.triangles].forEach((v, corner) => {
+      expect([...two.colours!.subarray(3 * v, 3 * v + 3)]).toEqual(corner < 3 ? [255, 0, 0] : [0, 0, 255]);
+      const before = square.triangles[corner]!;
+      expect([...two.positions.subarray(3 * v, 3 * v + 3)]).toEqual(square.positions.slice(3 * before, 3 * before + 3));
+    });
+    const vertexColours = Uint8Array.of(0, 0, 0, 128, 9, 9, 255, 255, 255, 51, 0, 0);
+    const multiplied = await of({ trianglePaints: [0, 0], paints, vertexColours });
+    expect([...multiplied.colours!]).toEqual([0, 0, 0, 128, 0, 0, 255, 0, 0, 51, 0, 0]);
+    expect([...(await of({ vertexColours })).colours!]).toEqual([...vertexColours]);
+    const pictures = [{ file: Uint8Array.of(1) }, { file: Uint8Array.of(2), clamp: true }];
+    const white = [{ colour: 0xffffff, picture: 1 }, { colour: 0xffffff }];
+    const shown = await of({ trianglePaints: [0, 1], paints: white, pictures, texcoords: [0, 0, 1, 0, 0, 1, 1, 1] });
+    expect(shown.looks).toMatchObject([{ image: { clamp: true }, runs: [{ first: 0, count: 1 }] }]);
+    expect(shown.colours).toBeUndefined();
+    const why = "a mesh in it does not agree with its colours";
+    for (const wrong of [
+      { trianglePaints: [0], paints }, { trianglePaints: [0, 2], paints }, { vertexColours: Uint8Array.of(1) },
+      { trianglePaints: [0, 0], paints: [{ colour: 0, picture: 0 }] }, { texcoords: [0, 0] },
+    ]) {
+      await expect(of(wrong)).rejects.toThrow(why);
+    }
+  });
 });
 
 describe("refused in one line is", () => {

@@ -2,13 +2,13 @@
 
 import type { RecordedShape } from "../gen/recording_pb";
 import type { Bounds, Mesh } from "../scene_messages";
+import { dressed, lookOf } from "./recorded_look";
 import { RecordingError } from "./recording_blocks";
 
-type Lists = Pick<RecordedShape, "positions" | "normals" | "triangles" | "segments" | "points" | "triangleMaterials">;
 const kLists = ["positions", "normals", "triangles", "segments", "points", "triangleMaterials"] as const;
 
 export class MeshParts {
-  private parts_: Lists[] = [];
+  private parts_: RecordedShape[] = [];
 
   /** The whole mesh after its last part; undefined before. */
   add(number: number, part: RecordedShape): Mesh | undefined {
@@ -22,7 +22,7 @@ export class MeshParts {
   }
 }
 
-function meshOf(number: number, parts: readonly Lists[]): Mesh {
+function meshOf(number: number, parts: readonly RecordedShape[]): Mesh {
   const joined = <T extends { set(from: number[], at: number): void }>(
     list: (typeof kLists)[number], make: (length: number) => T,
   ): T => {
@@ -49,7 +49,7 @@ function meshOf(number: number, parts: readonly Lists[]): Mesh {
     bounds: boundsOf(positions),
   };
   check(mesh);
-  return mesh;
+  return dressed(mesh, lookOf(parts));
 }
 
 function check(mesh: Mesh): void {
