@@ -5,6 +5,10 @@
 //                   solves with the true planes
 //   friction        the sub-goal of pass 1 is pulled back toward the proxy
 //   stiffness       the proxy does not change; the target moves from the proxy toward the finger
+//
+// For one sub-goal the two passes are repeated on the same contacts until they converge (settle()). A step that is not
+// plain descent toward the finger, but shaded, slipping or presliding, may raise the energy of the spring, and is paid
+// from the ledger's tank.
 // World frame; an "offset" is relative to the proxy at the start of the sub-goal.
 #pragma once
 

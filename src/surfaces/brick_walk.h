@@ -1,5 +1,9 @@
 // BrickWalk: through bricks of bricks of cells, down to the cells that a moving ball may touch.
 //
+// It is a search by branch and bound, in the coordinates of the grid. Every piece has an `order`, a lower bound of when
+// the ball comes to it: of the time of impact in a sweep, of the distance in an overlap. A piece is left out whose
+// order is beyond what is found already, or in which the surface cannot be: |f - plane| <= e says where that is.
+//
 // A brick is left out if the surface is not in it, or if the ball does not meet it (equal_boxes.h). Of the parts of a
 // brick the ball comes to, the first is entered first. So what is hit first is found soon, and all that the ball would
 // only come to afterwards is left out: of a fine grid that is nearly everything.

@@ -4,6 +4,14 @@
 //
 // so that a body has answered the very sample for which the tick is made. What the tick's force gives the hand beyond
 // what the bodies got is owed to them, and paid in the next step: action is reaction to rounding.
+// Each hand has an account:
+//
+//   owed    impulses that past forces gave the hand, and no body yet
+//   given   what the last step gave the bodies: first the part of `owed` that was paid before the solve, then what the
+//           solve added
+//   drawn   impulses of fields, always paid as a whole in the next step
+//
+// and settle() adds to `owed` the force of the tick times its period, less what the solve has given.
 #pragma once
 
 #include <array>
