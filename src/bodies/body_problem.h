@@ -33,6 +33,13 @@ struct BodyProblem {
   /// A body after its part of the way. RT-safe.
   BodyState stateAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const;
   Pose poseAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const;
+  /// Whether there may be one more row, of `most` at most: a contact that is refused is counted. RT-safe.
+  bool hasRoom(std::size_t most) {
+    if (rows.size() < std::min(most, rows.capacity())) return true;
+    ++dropped;
+    return false;
+  }
+  bool hasRoom() { return hasRoom(rows.capacity()); }
   /// m/s at `point` (m, world), of what a meeting with the scene meets. RT-safe.
   Vec3 sceneryVelocityAt(PrimitiveId primitive, const Vec3& point) const {
     return sceneryVelocity(meetings.scene()->instance(primitive), times, period_s, point);
@@ -47,6 +54,7 @@ struct BodyProblem {
   std::vector<Node> before;        ///< the same, before gravity
   std::vector<Node> unpushed;      ///< the same, after gravity, before the impulses of the rows
   std::vector<Row> rows;
+  std::size_t dropped = 0;  ///< contacts of the step that hasRoom() has refused; each as often as it was tried
   JointSet joints;
   std::vector<std::uint32_t> awake_joints;  ///< numbers of those whose bodies are awake, ascending
   std::vector<std::uint32_t> groups;        ///< of each body: joint_groups.h

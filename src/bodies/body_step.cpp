@@ -50,6 +50,7 @@ void BodyStepper::begin(const WorldState& state, double period_s) {
   problem_.step = state.steps;
   problem_.nodes.resize(problem_.bodies());
   problem_.rows.clear();
+  problem_.dropped = 0;
   problem_.awake.clear();
   problem_.awake_joints.clear();
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
@@ -290,7 +291,7 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
   fallAsleep(problem_, islands_, state);
   ++state.steps;
   report.rows = static_cast<int>(problem_.rows.size());
-  report.dropped = problem_.meetings.dropped();
+  report.dropped = problem_.meetings.dropped() + problem_.dropped;
   report.awake = static_cast<int>(problem_.awake.size());
   for (const Row& row : problem_.rows) report.deepest = std::max(report.deepest, -row.gap);
   return report;

@@ -64,13 +64,14 @@ Row ContactRows::rowOf(const Meeting& meeting, std::size_t number) const {
   return row;
 }
 
-void ContactRows::addRow(ContactMemory& memory, Meeting& meeting, std::size_t number) {
-  if (problem_.rows.size() == problem_.rows.capacity()) return;
+bool ContactRows::addRow(ContactMemory& memory, Meeting& meeting, std::size_t number) {
+  if (!problem_.hasRoom()) return false;
   meeting.used |= 1u << number;
   Row row = rowOf(meeting, number);
   recall(row, memory);
   row.approach = row.normal.dot(relativeVelocity(row, problem_.nodes));
   problem_.rows.push_back(row);
+  return true;
 }
 
 Vec3 ContactRows::placeOf(const Row& row) const {
@@ -162,12 +163,10 @@ void ContactRows::addBearing(ContactMemory& memory) {
   markInner();
   std::size_t first = problem_.rows.size();  // of the rows of the pair
   for (const Touching& one : touching_) {
-    if (problem_.rows.size() == problem_.rows.capacity()) return;
     const Meeting& meeting = meetings[one.meeting];
     if (first < problem_.rows.size() && !isOf(problem_.rows[first], meeting)) first = problem_.rows.size();
     if (meeting.isInner(one.point) || hasTwin(meeting, one.point, first)) continue;
-    addRow(memory, meetings[one.meeting], one.point);
-    if (problem_.rows.back().pressed > 0) continue;
+    if (!addRow(memory, meetings[one.meeting], one.point) || problem_.rows.back().pressed > 0) continue;
     problem_.rows.pop_back();
     meetings[one.meeting].used &= ~(1u << one.point);
   }
@@ -254,7 +253,7 @@ void ContactRows::addRowsOfEnd(const Meeting& meeting, const Manifold& end) {
                                  : Vec3(problem_.period_s * problem_.nodes[static_cast<std::size_t>(number)].velocity);
   };
   for (std::size_t point = 0; point < end.points.size(); ++point) {
-    if (problem_.rows.size() == problem_.rows.capacity()) return;
+    if (!problem_.hasRoom()) continue;
     Row row = rowOf(at_end, point);
     row.arm_a -= way_of(row.a);
     if (row.b != Row::kFixed) row.arm_b -= way_of(row.b);

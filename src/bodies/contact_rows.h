@@ -36,7 +36,8 @@ class ContactRows {
   void markInnerOfPlane(std::size_t first, std::size_t end);
   bool isOfPlane(const Touching& one, const Touching& other) const;
   Row rowOf(const Meeting& meeting, std::size_t point) const;
-  void addRow(ContactMemory& memory, Meeting& meeting, std::size_t point);
+  /// False: there is no room for it.
+  bool addRow(ContactMemory& memory, Meeting& meeting, std::size_t point);
   void addRowsOfEnd(const Meeting& meeting, const Manifold& end);
   /// Among the rows from number `first` on.
   bool hasTwin(const Meeting& meeting, std::size_t point, std::size_t first) const;

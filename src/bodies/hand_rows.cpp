@@ -13,6 +13,7 @@ namespace {
 constexpr double kSameNormal = 0.1;
 // Of the scene, no more than these: the nearest.
 constexpr std::size_t kMaxNear = 16;
+static_assert(kMaxNear < kNearOfHand);
 
 }  // namespace
 
@@ -22,6 +23,7 @@ void HandRows::add(const HandNode& hand, std::size_t number, ContactMemory& memo
   for (const HandContact& contact : hand.contacts) addHeld(contact, node, name, memory);
   if (!(hand.radius_m > 0)) return;
   const std::size_t before = problem_.rows.size();
+  most_ = before + kNearOfHand;
   const double margin = addNearBodies(hand, node, name, memory);
   const bool meets_bodies = problem_.rows.size() > before ||
                             std::any_of(hand.contacts.begin(), hand.contacts.end(), [&](const HandContact& contact) {
@@ -31,6 +33,7 @@ void HandRows::add(const HandNode& hand, std::size_t number, ContactMemory& memo
 }
 
 void HandRows::addHeld(const HandContact& contact, int node, std::uint64_t name, ContactMemory& memory) {
+  if (!problem_.hasRoom()) return;
   Row row;
   row.pair = {name, contact.key};
   row.a = node;
@@ -107,7 +110,7 @@ void HandRows::addNear(Row row, ContactMemory& memory) {
     return other.a == row.a && other.b == row.b &&
            (other.normal - row.normal).squaredNorm() < kSameNormal * kSameNormal;
   });
-  if (known || problem_.rows.size() == problem_.rows.capacity()) return;
+  if (known || !problem_.hasRoom(most_)) return;
   contacts_.recall(row, memory);
   problem_.rows.push_back(row);
 }

@@ -28,6 +28,7 @@ class HandRows {
   BodyProblem& problem_;
   const ContactRows& contacts_;  // knows what acted where in the last step
   const MotionBounds& bounds_;
+  std::size_t most_ = 0;  // rows there may be once the hand has its own
 };
 
 }  // namespace hl

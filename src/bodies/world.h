@@ -57,9 +57,12 @@ struct World {
   bool has(std::uint64_t key) const { return numberOf(key) != kNoBody; }
 };
 
-/// A step has no more contacts, 64 for each of the bodies, whatever its parts; the rest is dropped, and counted.
-inline constexpr std::size_t kMaxHands = 8, kContactsOfHand = 8, kContactsPerBody = 64;
-inline std::size_t mostRows(std::size_t bodies) { return kMaxHands * kContactsOfHand + kContactsPerBody * bodies; }
+/// A step has no more contacts: of each hand those that hold it and those that it may meet (hand_rows.h), and 64 for
+/// each of the bodies, whatever its parts; the rest is dropped, and counted.
+inline constexpr std::size_t kMaxHands = 8, kContactsOfHand = 8, kNearOfHand = 48, kContactsPerBody = 64;
+inline std::size_t mostRows(std::size_t bodies) {
+  return kMaxHands * (kContactsOfHand + kNearOfHand) + kContactsPerBody * bodies;
+}
 inline std::size_t mostRows(const World& world) { return mostRows(world.bodies.size()); }
 
 /// No body is faster at the begin of a step: what is in its way would not be met any more.
