@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "base/vec.h"
+#include "bodies/permute.h"
 
 namespace hl {
 
@@ -36,11 +38,14 @@ class ContactMemory {
   // A copy has the same room.
   ContactMemory(const ContactMemory& other) { *this = other; }
   ContactMemory& operator=(const ContactMemory& other) {
-    contacts_.reserve(other.contacts_.capacity());
+    reserve(other.contacts_.capacity());
     contacts_ = other.contacts_;
     return *this;
   }
-  void reserve(std::size_t contacts) { contacts_.reserve(contacts); }
+  void reserve(std::size_t contacts) {
+    contacts_.reserve(contacts);
+    order_.reserve(contacts_.capacity());
+  }
   /// The one nearest to `place` within `near` (m) that is not taken; null: none. RT-safe.
   RememberedContact* find(const ContactPair& pair, const Vec3& place, double near) {
     auto at = std::lower_bound(contacts_.begin(), contacts_.end(), pair,
@@ -71,29 +76,52 @@ class ContactMemory {
   void release() {
     for (RememberedContact& contact : contacts_) contact.taken = false;
   }
-  /// Those for which `belongs` is true go to `other`. RT-safe.
+  /// Those for which `belongs` is true go to `other`, behind its own of the same pair, as far as there is room.
+  /// RT-safe.
   template <typename Belongs>
   void moveTo(ContactMemory& other, Belongs belongs) {
     std::size_t kept = 0;
-    for (const RememberedContact& contact : contacts_) {
-      if (belongs(contact))
-        other.add(contact);
+    order_.clear();  // of those that go
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (belongs(contacts_[i])) order_.push_back(static_cast<std::uint32_t>(i));
+    }
+    other.merge(contacts_, order_);
+    std::size_t gone = 0;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (gone < order_.size() && order_[gone] == i)
+        ++gone;
       else
-        contacts_[kept++] = contact;
+        contacts_[kept++] = contacts_[i];
     }
     contacts_.resize(kept);
-    other.sort();
   }
   /// After the last add(). Contacts of one pair keep their order. RT-safe.
   void sort() {
-    for (std::size_t i = 1; i < contacts_.size(); ++i) {
-      for (std::size_t j = i; j > 0 && contacts_[j].pair < contacts_[j - 1].pair; --j)
-        std::swap(contacts_[j], contacts_[j - 1]);
-    }
+    const auto before = [](const RememberedContact& x, const RememberedContact& y) { return x.pair < y.pair; };
+    if (std::is_sorted(contacts_.begin(), contacts_.end(), before)) return;
+    order_.resize(contacts_.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t x, std::uint32_t y) {
+      return std::tie(contacts_[x].pair, x) < std::tie(contacts_[y].pair, y);
+    });
+    permute(contacts_.data(), contacts_.size(), [&](std::size_t i) -> std::uint32_t& { return order_[i]; });
   }
 
  private:
+  // Both lists are sorted: what is last is put in its place first, so that nothing is overwritten that is still needed.
+  void merge(const std::vector<RememberedContact>& from, std::span<const std::uint32_t> numbers) {
+    std::size_t own = contacts_.size(), coming = std::min(numbers.size(), contacts_.capacity() - own);
+    contacts_.resize(own + coming);
+    for (std::size_t at = contacts_.size(); coming > 0; --at) {
+      const RememberedContact& last = from[numbers[coming - 1]];
+      const bool is_last = own == 0 || !(last.pair < contacts_[own - 1].pair);
+      contacts_[at - 1] = is_last ? last : contacts_[own - 1];
+      --(is_last ? coming : own);
+    }
+  }
+
   std::vector<RememberedContact> contacts_;
+  std::vector<std::uint32_t> order_;  // room for numbers of contacts_
 };
 
 }  // namespace hl

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "bodies/permute.h"
 #include "bodies/row.h"
 
 namespace hl {
@@ -119,7 +119,6 @@ void Meetings::withBodies(const WorldState& state, const PlacedBodies& placed, c
   sortFrom(first);
 }
 
-// A meeting is large: each is moved once, along the cycles of the permutation.
 void Meetings::sortFrom(std::size_t first) {
   constexpr std::size_t kPlace = 4;
   order_.clear();
@@ -128,18 +127,7 @@ void Meetings::sortFrom(std::size_t first) {
     order_.push_back({one.a, one.b, one.part_a, one.part_b, static_cast<int>(i - first)});
   }
   std::sort(order_.begin(), order_.end());
-  for (std::size_t begin = 0; begin < order_.size(); ++begin) {
-    if (static_cast<std::size_t>(order_[begin][kPlace]) == begin) continue;
-    const Meeting kept = meetings_[first + begin];
-    std::size_t here = begin;
-    while (true) {
-      const auto from = static_cast<std::size_t>(std::exchange(order_[here][kPlace], static_cast<int>(here)));
-      if (from == begin) break;
-      meetings_[first + here] = meetings_[first + from];
-      here = from;
-    }
-    meetings_[first + here] = kept;
-  }
+  permute(meetings_.data() + first, order_.size(), [&](std::size_t i) -> int& { return order_[i][kPlace]; });
 }
 
 }  // namespace hl
