@@ -31,6 +31,7 @@ class SweepAndPrune {
   std::vector<std::uint32_t> along_x_;
   std::vector<double> reach_, low_x_;  // m
   double widest_ = 0;                  // m, greatest reach
+  bool sorted_ = false;                // along_x_ was, at least once
 };
 
 // Each that is awake meets those that begin before it ends, and of those before it the sleeping ones.

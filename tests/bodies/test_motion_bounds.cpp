@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/realtime_guard.h"
 #include "draws.h"
 #include "test_worlds.h"
 
@@ -107,6 +108,25 @@ TEST(MotionBounds, AreOfTheFastestThatABodyMayMeet) {
   }
   EXPECT_GT(alone, 200);
   EXPECT_GT(whole, 200);
+}
+
+// In the order opposite to that of the first step, so many exchanges of neighbours would be a matter of minutes.
+TEST(SweepAndPrune, AWorldThatBeginsIsSortedAtOnceAndInPlace) {
+  constexpr std::size_t kBodies = 100'000;
+  World world;
+  WorldState state;
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    world.bodies.push_back(test::ball(i + 1, 1, 0.1, 0));
+    state.bodies.emplace_back().centre.x() = -static_cast<double>(i);
+  }
+  SweepAndPrune near(world);
+  {
+    const RealtimeGuard guard;
+    near.sort(state);
+  }
+  std::size_t pairs = 0;
+  near.forEachPair(state, std::vector<double>(kBodies, 0.5), [&](std::uint32_t, std::uint32_t) { ++pairs; });
+  EXPECT_EQ(pairs, kBodies - 1);
 }
 
 TEST(SweepAndPrune, FindsEachNearPairOnce) {
