@@ -15,10 +15,9 @@ std::size_t mostWork(const ProxySettings& settings, const ProxyState& state) {
   return static_cast<std::size_t>(settings.work_cap) << (state.out_of_work / convergence::kTicksPerDoubling);
 }
 
-// Consecutive ticks that ran out of work, capped where more make no difference.
+// Consecutive ticks that ran out of work.
 int outOfWork(const ProxyState& state, Ending ending) {
-  constexpr int kMax = convergence::kTicksPerDoubling * convergence::kMaxDoublings;
-  return ending == Ending::kOutOfWork ? std::min(state.out_of_work + 1, kMax) : 0;
+  return ending == Ending::kOutOfWork ? std::min(state.out_of_work + 1, convergence::kMostOutOfWork) : 0;
 }
 
 }  // namespace

@@ -122,6 +122,8 @@ inline constexpr std::size_t kWorkPerLook = 40, kWorkPerContact = 8, kWorkPerPri
 /// triangles a second-order step does not succeed within the work of one tick: without this the proxy would never
 /// arrive.
 inline constexpr int kTicksPerDoubling = 8, kMaxDoublings = 4;
+/// Counted at most of such ticks: more make no difference.
+inline constexpr int kMostOutOfWork = kTicksPerDoubling * kMaxDoublings;
 
 /// In reaches: the first leg of a long step. A finger at 1 m/s moves one to five reaches per tick.
 inline constexpr double kFirstLegPerReach = 8;

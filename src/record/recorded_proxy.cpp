@@ -1,9 +1,8 @@
 #include "record/recorded_proxy.h"
 
-#include <limits>
-
 #include "base/error.h"
 #include "io/value_messages.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
 
@@ -60,7 +59,7 @@ void checkMemory(const MemoryValues& in) {
   checkTime(in.time_ns, "the last tick before the recording");
   checkRanges(kMemory, {{"rest_s", in.rest_s, 0, kMaxMemory},
                         {"stiffness", in.stiffness, 0, 1},
-                        {"out_of_work", static_cast<double>(in.out_of_work), 0, std::numeric_limits<int>::max()},
+                        {"out_of_work", static_cast<double>(in.out_of_work), 0, convergence::kMostOutOfWork},
                         {"start", static_cast<double>(in.start), 0, static_cast<double>(StartSearch::kPlaces - 1)},
                         {"duration_s", in.fading.duration_s, in.fading.left_s, kMaxMemory},
                         {"left_s", in.fading.left_s, 0, kMaxMemory},
