@@ -55,7 +55,7 @@ void WebSession::oneStep() {
   sample_ = device_.read(now_ns_);
   out_ = step_.onTime(loop_, commands_, settings_, sample_);
   device_.write(out_.force_N);
-  endings_.add(step_.tick().report.ending);
+  if (step_.tick()) endings_.add(step_.tick()->report.ending);
   ++steps_;
 }
 
@@ -142,7 +142,10 @@ const HlWebState& WebSession::state() {
 }
 
 void WebSession::describeTouch() {
-  const ProxyStep& tick = step_.tick();
+  state_.contacts = 0;
+  state_.snap = -1;
+  if (!step_.tick()) return;
+  const ProxyStep& tick = *step_.tick();
   std::uint32_t object = 0;
   state_.contacts = static_cast<double>(tick.report.contacts.size());
   for (std::size_t i = 0; i < tick.report.contacts.size(); ++i) {
@@ -155,7 +158,6 @@ void WebSession::describeTouch() {
     out.stiffness = contact.stiffness;
     state_.touched[i] = snapshot_->find(tick.touched[i].key, object) ? object : -1.0;
   }
-  state_.snap = -1;
   if (!snapshot_->find(tick.snap.object.key, object)) return;
   for (std::size_t i = 0; i < snapshot_->snaps.size(); ++i) {
     const PlacedSnap& snap = snapshot_->snaps[i];

@@ -78,7 +78,6 @@ void Recorder::step(const ServoRecord& record) noexcept {
 
 void Recorder::tick(const TickRequest& request, const ProxyStep& step, const ProxyLoop& proxy,
                     std::int64_t work_ns) noexcept {
-  if (step.scene == 0) return;
   const HashedSteps hashed = hashing_.load(std::memory_order_relaxed) ? HashedSteps::kAll : HashedSteps::kSome;
   ticks_.push({request, step.scene, step.held.target, proxy.state().position, step.report.contacts.size(), work_ns,
                step.report.used_up_at, worldHash(proxy, hashed)});

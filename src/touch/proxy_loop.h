@@ -44,7 +44,7 @@ struct TickRequest {
 };
 
 struct ProxyStep {
-  std::uint64_t scene = 0;  ///< identity of the snapshot; 0: there was no tick
+  std::uint64_t scene = 0;  ///< identity of the snapshot
   HeldContacts held;        ///< the target, and how it goes on until the next tick
   TickReport report;
   FixedVector<ObjectName, kMaxActive> touched;  ///< of report.contacts, one by one

@@ -20,6 +20,14 @@ ServoSettings servoSettingsOf(const TouchSettings& settings, Device& device, dou
   return servo;
 }
 
+// What later steps go on with; after a step without a tick nothing holds the proxy.
+HeldContacts heldAfter(const TouchStep& step) {
+  if (step.tick()) return step.tick()->held;
+  HeldContacts held;
+  held.target = step.target();
+  return held;
+}
+
 VibrationView viewOf(const VibrationGuard& guard) { return {guard.limit_N_m, guard.alarms, guard.dissipated_J}; }
 
 }  // namespace
@@ -129,8 +137,9 @@ ServoOutput ServoLoop::tickAndTouch(const DeviceSample& sample) {
   const ServoOutput out = step_.onTime(parts_.ticker.loop(), commands, settings_, sample);
   parts_.device.write(out.force_N);
   const std::int64_t work_ns = monotonicNow_ns() - begin_ns;
-  last_tick_ = {step_.tick().held, 1e-3f * static_cast<float>(work_ns)};
-  parts_.ticker.done({sample.time_ns, sample.position, commands, spring}, step_.tick(), begin_ns, work_ns);
+  last_tick_ = {heldAfter(step_), 1e-3f * static_cast<float>(work_ns)};
+  const ProxyStep* const tick = step_.tick() ? &*step_.tick() : nullptr;
+  parts_.ticker.done({sample.time_ns, sample.position, commands, spring}, tick, begin_ns, work_ns);
   return out;
 }
 

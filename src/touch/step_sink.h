@@ -39,7 +39,7 @@ class StepSink {
 
   /// A step that the servo has made. Its thread; RT-safe.
   virtual void step(const ServoRecord& record) noexcept = 0;
-  /// A tick of `proxy`, by the loop that has made it; `step.scene` is 0 where there was none. RT-safe.
+  /// A tick of `proxy`, by the loop that has made it. RT-safe.
   virtual void tick(const TickRequest& request, const ProxyStep& step, const ProxyLoop& proxy,
                     std::int64_t work_ns) noexcept = 0;
   /// Before the loops can take it. Any thread but theirs.

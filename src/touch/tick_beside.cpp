@@ -16,7 +16,7 @@ const TickRequest& TickBeside::begin(std::int64_t now_ns) {
 void TickBeside::end(const ProxyStep& step) {
   const std::int64_t work_ns = monotonicNow_ns() - request_.time_ns;
   parts_.exchange.ticks.write({step.held, 1e-3f * static_cast<float>(work_ns)});
-  parts_.ticker.done(request_, step, request_.time_ns, work_ns);
+  parts_.ticker.done(request_, &step, request_.time_ns, work_ns);
 }
 
 }  // namespace hl

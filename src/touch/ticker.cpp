@@ -35,10 +35,12 @@ const ProxyCommands& Ticker::follow() {
   return commands_;
 }
 
-void Ticker::done(const TickRequest& request, const ProxyStep& step, std::int64_t begin_ns, std::int64_t work_ns) {
-  TickRequest whole = request;
-  whole.on_bodies = loop_.done();
-  sink_.tick(whole, step, loop_, work_ns);
+void Ticker::done(const TickRequest& request, const ProxyStep* step, std::int64_t begin_ns, std::int64_t work_ns) {
+  if (step != nullptr) {
+    TickRequest whole = request;
+    whole.on_bodies = loop_.done();
+    sink_.tick(whole, *step, loop_, work_ns);
+  }
   meter_.add(begin_ns, work_ns);
   show(step);
   ticks_.fetch_add(1, std::memory_order_relaxed);
@@ -47,15 +49,21 @@ void Ticker::done(const TickRequest& request, const ProxyStep& step, std::int64_
   chooser_.took(work_ns);
 }
 
-void Ticker::show(const ProxyStep& step) {
+void Ticker::show(const ProxyStep* step) {
   const ProxyState& state = loop_.state();
   view_.proxy = state.position;
-  view_.contacts = step.report.contacts;
-  view_.touched = step.touched;
-  view_.snap = step.snap;
-  view_.slipping = state.touching && state.rest_s == 0;
+  view_.contacts.clear();
+  view_.touched.clear();
+  view_.snap = {};
+  view_.slipping = false;
+  if (step != nullptr) {
+    view_.contacts = step->report.contacts;
+    view_.touched = step->touched;
+    view_.snap = step->snap;
+    view_.slipping = state.touching && state.rest_s == 0;
+    view_.ended.add(step->report.ending);
+  }
   view_.ledger = state.ledger;
-  view_.ended.add(step.report.ending);
   view_.bodies = loop_.bodies() != nullptr ? loop_.bodies()->view() : BodyView{};
   view_.loop = meter_.summary();
   views_.proxy.write(view_);

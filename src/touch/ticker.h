@@ -28,8 +28,9 @@ class Ticker {
   /// What the next tick is to follow.
   const ProxyCommands& follow();
   ProxyLoop& loop() { return loop_; }
-  /// A tick has been made. At last the turn may go to the other loop.
-  void done(const TickRequest& request, const ProxyStep& step, std::int64_t begin_ns, std::int64_t work_ns);
+  /// A tick has been made; `step` is null where the device gave no reading to make it with. At last the turn may go to
+  /// the other loop.
+  void done(const TickRequest& request, const ProxyStep* step, std::int64_t begin_ns, std::int64_t work_ns);
 
   bool popEvent(TouchEvent& event) { return loop_.popEvent(event); }  ///< one thread only
   bool popEvent(BodyEvent& event) { return loop_.popEvent(event); }   ///< the same
@@ -38,7 +39,7 @@ class Ticker {
   std::int64_t last_ns() const { return last_ns_.load(std::memory_order_acquire); }  ///< when the last one began
 
  private:
-  void show(const ProxyStep& step);
+  void show(const ProxyStep* step);
 
   LiveSettings& live_;
   LoopExchange& exchange_;

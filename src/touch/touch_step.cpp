@@ -6,13 +6,13 @@ ServoOutput TouchStep::onTime(ProxyLoop& loop, const ProxyCommands& commands, co
                               const DeviceSample& sample) {
   if (sample.status == DeviceStatus::kOk && sample.position.allFinite()) {
     tick_ = loop.step(sample.time_ns, sample.position, commands, springOf(settings, servo_));
+    target_ = tick_->held.target;
   } else {
     loop.skip();
-    tick_.scene = 0;
-    tick_.held = HeldContacts{};
-    tick_.held.target.time_ns = sample.time_ns;
+    tick_.reset();
+    target_ = ServoTarget{};
+    target_.time_ns = sample.time_ns;
   }
-  target_ = tick_.held.target;
   return stepServo(servo_, settings, target_, sample);
 }
 

@@ -5,6 +5,8 @@
 //   late:     sample -> the planes of the last tick that has come -> target -> servo -> force
 #pragma once
 
+#include <optional>
+
 #include "control/servo.h"
 #include "touch/held_contacts.h"
 #include "touch/proxy_loop.h"
@@ -28,13 +30,13 @@ class TouchStep {
   ServoState& servo() { return servo_; }
   /// The target of the servo in the last step.
   const ServoTarget& target() const { return target_; }
-  /// What the last tick on time found.
-  const ProxyStep& tick() const { return tick_; }
+  /// What the tick of the last step on time found; nothing: its sample was no reading.
+  const std::optional<ProxyStep>& tick() const { return tick_; }
 
  private:
   ServoState servo_;
   ServoTarget target_;
-  ProxyStep tick_;
+  std::optional<ProxyStep> tick_;
 };
 
 }  // namespace hl

@@ -74,7 +74,7 @@ class VirtualServo {
     const ServoState before = step_.servo();
     const ServoOutput out = step_.onTime(loop_, commands_, settings_, sample);
     device_.write(out.force_N);
-    recorder_.tick({sample.time_ns, sample.position, commands_, springOf(settings_, before)}, step_.tick(), loop_, 0);
+    recorder_.tick({sample.time_ns, sample.position, commands_, springOf(settings_, before)}, *step_.tick(), loop_, 0);
     recorder_.step({before, ServoCommand::kNone, settings_, step_.target(), sample, out, 0});
     force_N_ = std::max(force_N_, out.force_N.norm());
   }

@@ -105,12 +105,15 @@ class Stirred {
     const ServoOutput out = step_.onTime(loop_, commands_, settings_, sample);
     {
       const RealtimeGuard guard;
-      recorder_.tick({sample.time_ns, sample.position, commands_, spring}, step_.tick(), loop_, 1000);
+      if (step_.tick())
+        recorder_.tick({sample.time_ns, sample.position, commands_, spring}, *step_.tick(), loop_, 1000);
       recorder_.step({before, ServoCommand::kNone, settings_, step_.target(), sample, out, 1000});
     }
     device_.write(out.force_N);
     slot_.dropBefore();
-    for (const ObjectName& touched : step_.tick().touched) on_bodies_ += touched.key > 1 ? 1 : 0;
+    if (step_.tick()) {
+      for (const ObjectName& touched : step_.tick()->touched) on_bodies_ += touched.key > 1 ? 1 : 0;
+    }
     snapped_ += loop_.state().snap.holds() ? 1 : 0;
     drawn_ += step_.target().field_N.norm() > 0.01 ? 1 : 0;
   }

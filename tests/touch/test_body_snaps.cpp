@@ -50,7 +50,7 @@ class Held {
   const BodyState& body() const { return scenes_->bodies()->state().bodies[0]; }
   const BodyWorld& world() const { return *scenes_->bodies(); }
   const ProxyState& proxy() const { return loop_->state(); }
-  const ProxyStep& tick() const { return step_.tick(); }
+  const ProxyStep& tick() const { return *step_.tick(); }
   Vec3 imbalance() const {
     return given_ + world().world().bodies[0].mass.mass_kg * body().velocity + world().owed_N_s();
   }

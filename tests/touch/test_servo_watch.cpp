@@ -92,6 +92,15 @@ struct Bench {
     session->views(servo, proxy);
     return servo;
   }
+  // Ticks so far that have been counted by why they ended.
+  std::uint64_t endings() const {
+    ServoView servo;
+    ProxyView proxy;
+    session->views(servo, proxy);
+    std::uint64_t sum = 0;
+    proxy.ended.each([&](Ending, std::uint64_t count) { sum += count; });
+    return sum;
+  }
   // A machine that is too busy may hold up the servo on its own account: then it is armed anew.
   void waitFor(SafetyState state) const {
     waitUntil([&] {
@@ -158,6 +167,23 @@ TEST(ServoWatch, ALostDeviceThatReturnsIsReportedAndArmsAgainWhereItIsWanted) {
     }
     bench.waitFor(SafetyState::kOn);
   }
+}
+
+TEST(ServoWatch, WhileTheDeviceIsLostNoTickEnds) {
+  Bench bench;
+  EXPECT_GT(bench.endings(), 0U);
+  bench.device->lost = true;
+  waitUntil([&] { return bench.view().fault == FaultReason::kDeviceLost; });
+  const auto waitForSteps = [&](std::uint64_t steps) {
+    const std::uint64_t before = bench.session->servoTotals().steps;
+    waitUntil([&] { return bench.session->servoTotals().steps > before + steps; });
+  };
+  waitForSteps(10);  // the steps that were under way
+  const std::uint64_t endings = bench.endings();
+  waitForSteps(100);
+  EXPECT_EQ(bench.endings(), endings);
+  bench.device->lost = false;
+  waitUntil([&] { return bench.endings() > endings; });
 }
 
 TEST(ServoWatch, AServoThatIsLateTooOftenIsAFaultWhereAPersonHoldsTheDevice) {

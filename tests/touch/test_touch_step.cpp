@@ -77,7 +77,7 @@ TEST(TouchStep, LateTheFingerStillSlidesOnThePlanesOfTheLastTick) {
   const ServoSettings settings = undamped(premium10().info, 1000);
   floor.waitAt({0, 0.01, 0}, settings);
   floor.step_.onTime(floor.loop_, floor.commands_, settings, sampleAt(100 * kMs, {0, 0.001, 0}));
-  const HeldContacts held = floor.step_.tick().held;
+  const HeldContacts held = floor.step_.tick()->held;
   for (int i = 101; i < 140; ++i) {
     const Vec3 finger(0.001 * (i - 100), i % 7 == 0 ? 0.004 : 0.0012, -0.0005 * (i - 100));
     const ServoOutput out = floor.step_.late(held, settings, sampleAt(i * kMs, finger));
@@ -95,7 +95,7 @@ TEST(TouchStep, LateARoughSurfaceHoldsTheProxyWhereTheTickPutIt) {
   const ServoSettings settings = undamped(premium10().info, 1000);
   floor.waitAt({0, 0.01, 0}, settings);
   floor.step_.onTime(floor.loop_, floor.commands_, settings, sampleAt(100 * kMs, {0, 0.001, 0}));
-  const HeldContacts held = floor.step_.tick().held;
+  const HeldContacts held = floor.step_.tick()->held;
   EXPECT_TRUE(held.planes_D.empty());
   EXPECT_EQ(held.at({0.01, 0, 0}).proxy_D, held.target.proxy_D);
 }
@@ -109,6 +109,9 @@ TEST(TouchStep, ASampleThatIsNoReadingTicksNothing) {
   lost.status = DeviceStatus::kLost;
   EXPECT_EQ(floor.step_.onTime(floor.loop_, floor.commands_, settings, lost).force_N, Vec3(Vec3::Zero()));
   EXPECT_EQ(floor.loop_.state().position, before);
+  EXPECT_FALSE(floor.step_.tick());
+  EXPECT_FALSE(floor.step_.target().valid);
+  EXPECT_EQ(floor.step_.target().time_ns, lost.time_ns);
 }
 
 TEST(TouchStep, ScenesGoOnWhileTheDeviceIsLost) {
@@ -134,7 +137,7 @@ TEST(TouchStep, AfterScenesThatWereSkippedTheHandIsTakenOverSlowly) {
   for (const int scenes : {1, 2}) {
     Floor floor;
     floor.waitAt({0, 0.001, 0}, settings);
-    ASSERT_FALSE(floor.step_.tick().held.planes_D.empty());
+    ASSERT_FALSE(floor.step_.tick()->held.planes_D.empty());
     for (int i = 1; i <= scenes; ++i) {
       const auto& last = *floor.scenes_.newest();
       std::vector<Instance> raised = last.instances;
@@ -146,7 +149,7 @@ TEST(TouchStep, AfterScenesThatWereSkippedTheHandIsTakenOverSlowly) {
       floor.step_.onTime(floor.loop_, floor.commands_, settings, lost);
     }
     floor.step_.onTime(floor.loop_, floor.commands_, settings, sampleAt(110 * kMs, {0, 0.001, 0}));
-    EXPECT_EQ(floor.step_.tick().held.planes_D.empty(), scenes > 1) << scenes;
+    EXPECT_EQ(floor.step_.tick()->held.planes_D.empty(), scenes > 1) << scenes;
   }
 }
 
@@ -190,7 +193,7 @@ TEST(TouchStep, AllocatesNothing) {
   const RealtimeGuard guard;
   for (int i = 2; i < 100; ++i) {
     floor.step_.onTime(floor.loop_, floor.commands_, settings, sampleAt(i * kMs, {0, 0.001, 0}));
-    floor.step_.late(floor.step_.tick().held, settings, sampleAt(i * kMs, {0, 0.001, 0}));
+    floor.step_.late(floor.step_.tick()->held, settings, sampleAt(i * kMs, {0, 0.001, 0}));
   }
 }
 
