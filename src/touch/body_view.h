@@ -18,7 +18,7 @@ struct BodyView {
   EnergyBook energy{};         ///< since they began
   std::uint64_t dropped = 0;   ///< contacts without room, since they began
   std::uint64_t unsolved = 0;  ///< steps whose solve ended at its limit of work
-  std::uint64_t returned = 0;  ///< bodies that had left their room and were put back
+  std::uint64_t returned = 0;  ///< bodies put back that had left their room, or whose state was not finite
 };
 
 }  // namespace hl

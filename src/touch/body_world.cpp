@@ -1,6 +1,7 @@
 #include "touch/body_world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/clock.h"
@@ -27,6 +28,10 @@ void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& i
     return;
   }
   list.push(impulse);
+}
+
+bool isFinite(const BodyState& body) {
+  return std::isfinite(body.centre.sum() + body.velocity.sum() + body.spin.sum() + body.turned.coeffs().sum());
 }
 
 // A hand that does not pull holds nothing, and only pays.
@@ -311,11 +316,13 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, std::span<const HandA
   }
   if (!std::exchange(mobility_shown_, true)) showMobility();
   if (first || now_ns <= before_ns) return;
+  returnBroken();
   push(period_s);
   payDrawn();
+  const EnergyBook before = state_.energy;
   stepAmong(hands, period_s, {before_ns, now_ns});
   for (const std::size_t i : stepper_.awake()) bodies_[i]->poses->moveTo(shownOf(i), before_ns, now_ns);
-  returnLost();
+  returnLost(before);
   joint_views_.show(world(), state_, period_s);
   count(seconds(now_ns - before_ns) - period_s);
 }
@@ -334,25 +341,58 @@ void BodyWorld::count(double late_s) {
   view_.gravity_J = gravityEnergy_J(world(), state_);
 }
 
-// So that nothing is lost that falls from a table, and no body is ever so far away that its place is inexact.
-void BodyWorld::returnLost() {
-  bool any = false;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+// A state that is not finite would spread to all that the body meets.
+void BodyWorld::returnBroken() {
+  if (findLost([&](std::size_t i) { return state_.bodies[i].island == 0 && !isFinite(state_.bodies[i]); }))
+    putBackLost();
+}
+
+// So that nothing is lost that falls from a table, and no body is ever so far away that its place is inexact. `before`:
+// what was booked before the step. What a step has lost or given that comes to no finite state is not known.
+void BodyWorld::returnLost(const EnergyBook& before) {
+  bool broken = false;
+  const bool any = findLost([&](std::size_t i) {
     const Vec3& centre = state_.bodies[i].centre;
     const Box& room = bodies_[i]->poses->room();
-    lost_[i] = (centre.array() < room.min.array()).any() || (centre.array() > room.max.array()).any();
+    const bool finite = isFinite(state_.bodies[i]);
+    broken |= !finite;
+    return !finite || (centre.array() < room.min.array()).any() || (centre.array() > room.max.array()).any();
+  });
+  if (!any) return;
+  if (broken) forgetStep(before);
+  const double before_J = energy_J();
+  putBackLost();
+  if (!broken) state_.energy.solver_J += energy_J() - before_J;
+}
+
+// The next step must not begin from what is not finite.
+void BodyWorld::forgetStep(const EnergyBook& before) {
+  state_.energy = before;
+  state_.memory.clear();
+  for (Account& account : accounts_) {
+    account.owed.clear();
+    account.given.clear();
+    account.paid = 0;
+  }
+}
+
+bool BodyWorld::findLost(FunctionRef<bool(std::size_t body)> is_lost) {
+  bool any = false;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    lost_[i] = is_lost(i) ? 1 : 0;
     any |= lost_[i] != 0;
   }
-  if (!any) return;
-  const double before_J = energy_J();
+  return any;
+}
+
+void BodyWorld::putBackLost() {
   loseJoined();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (lost_[i] != 0) putBack(i);
   }
-  state_.energy.solver_J += energy_J() - before_J;
 }
 
-// What joints connect goes together, or it would be torn apart. Each look over the joints finds at least one more body.
+// What joints connect goes together, or it would be torn apart.
 void BodyWorld::loseJoined() {
   for (bool more = true; more;) {
     more = false;

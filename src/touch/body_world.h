@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "bodies/body_step.h"
 #include "proxy/field_forces.h"
 #include "proxy/object_forces.h"
@@ -94,7 +95,11 @@ class BodyWorld {
   void showMobility();
   void stepAmong(std::span<const HandAtBodies> hands, double period_s, const StepTimes& times);
   void payDrawn();
-  void returnLost();
+  void returnBroken();
+  void returnLost(const EnergyBook& before);
+  void forgetStep(const EnergyBook& before);
+  bool findLost(FunctionRef<bool(std::size_t body)> is_lost);
+  void putBackLost();
   void loseJoined();
   void putBack(std::size_t i);
   void count(double late_s);
@@ -119,7 +124,7 @@ class BodyWorld {
   BodyView view_;
   std::vector<BodyState> starts_;         // of the bodies
   std::vector<JointState> joint_starts_;  // as World::joints
-  std::vector<std::uint8_t> lost_;        // of each body: whether it has left its room
+  std::vector<std::uint8_t> lost_;        // of each body: whether it is to be put back
 };
 
 }  // namespace hl

@@ -286,5 +286,48 @@ TEST(BodyWorld, AnImpulseWakesWhatSleeps) {
   }
 }
 
+// Two blocks that stand side by side.
+const std::vector<Bench::Block> kNeighbours{{}, {0.1, Vec3::Constant(0.02), Vec3(0.041, 0.02, 0)}};
+
+TEST(BodyWorld, ABodyWhoseStateIsNotFiniteIsPutBackAlone) {
+  const ServoSettings settings = test::plainServo(1000);
+  const Vec3 finger(0.3, 0.3, 0);
+  std::uint64_t returned = 0;
+  Bench bench(kNeighbours, 0.4);
+  bench.step(finger, settings);
+  for (const double wrong : {std::nan(""), HUGE_VAL}) {
+    for (const bool spins : {false, true}) {
+      const Vec3 none = Vec3::Zero(), broken(0, wrong, 0);
+      bench.give(Vec3(1, 0, 0), none);
+      bench.step(finger, settings);
+      bench.give(spins ? none : broken, spins ? broken : none);
+      bench.step(finger, settings);
+      EXPECT_EQ(bench.world().view().returned, ++returned);
+      EXPECT_NEAR((bench.body(0).centre - kNeighbours[0].at).norm(), 0, 1e-4);
+      EXPECT_NEAR((bench.body(1).centre - kNeighbours[1].at).norm(), 0, 1e-2);
+      EXPECT_TRUE(std::isfinite(bench.world().state().energy.change_J()));
+    }
+  }
+}
+
+// What the step itself makes of a pull that is no number.
+TEST(BodyWorld, AStepThatComesToNoFiniteStateIsForgotten) {
+  const auto scene = test::sceneOfBlocks(kNeighbours, 0.4, 9.81);
+  const auto world = BodyWorld::of(*scene);
+  HandAtBodies hand;
+  hand.spring_N_m = 1000;
+  hand.proxy = Vec3(0, 0.041, 0);
+  hand.contacts.push({2, Vec3(0, 0.04, 0), Vec3::UnitY(), 0.4, 0.4, false});
+  for (int step = 1; step <= 200; ++step) {
+    hand.stretch = Vec3(0, step == 100 ? std::nan("") : 0.001, 0);
+    world->step(step * kMs, 1e-3, {&hand, 1});
+    for (std::size_t i = 0; i < kNeighbours.size(); ++i)
+      ASSERT_NEAR((world->state().bodies[i].centre - kNeighbours[i].at).norm(), 0, 1e-4) << step;
+  }
+  EXPECT_EQ(world->view().returned, 1U);
+  EXPECT_TRUE(std::isfinite(world->state().energy.change_J()));
+  EXPECT_TRUE(world->owed_N_s().allFinite());
+}
+
 }  // namespace
 }  // namespace hl::test_body_world
