@@ -46,6 +46,8 @@ class BodyStepper {
   const World& world() const { return *problem_.world; }
   /// Numbers of the bodies that the last step moved, ascending.
   std::span<const std::size_t> awake() const { return problem_.awake; }
+  /// Of each body: jointGroups().
+  std::span<const std::uint32_t> groups() const { return problem_.groups; }
   /// Of the last step.
   std::span<const Row> rows() const { return problem_.rows; }
 

@@ -394,18 +394,13 @@ void BodyWorld::putBackLost() {
 
 // What joints connect goes together, or it would be torn apart.
 void BodyWorld::loseJoined() {
-  for (bool more = true; more;) {
-    more = false;
-    for (std::size_t i = 0; i < world().joints.size(); ++i) {
-      const Joint& joint = world().joints[i];
-      std::uint8_t& lost_a = lost_[world().numberOf(joint.body_a)];
-      std::uint8_t& lost_b = joint.body_b == 0 ? lost_a : lost_[world().numberOf(joint.body_b)];
-      if (lost_a != lost_b) {
-        lost_a = lost_b = 1;
-        more = true;
-      }
-      if (lost_a != 0) state_.joints[i] = joint_starts_[i];
-    }
+  const std::span<const std::uint32_t> groups = stepper_.groups();
+  for (std::size_t i = 0; i < lost_.size(); ++i) {
+    if (lost_[i] != 0) lost_[groups[i]] = 1;
+  }
+  for (std::size_t i = 0; i < lost_.size(); ++i) lost_[i] = lost_[groups[i]];
+  for (std::size_t i = 0; i < world().joints.size(); ++i) {
+    if (lost_[world().numberOf(world().joints[i].body_a)] != 0) state_.joints[i] = joint_starts_[i];
   }
 }
 

@@ -139,5 +139,47 @@ TEST(JointWorld, R14ADetentJumpsFromTheStiffnessOfTheFingerOn) {
   }
 }
 
+// A chain of six and one body beside it, each of 1 cm; one of the chain is placed outside of its room.
+TEST(JointWorld, WhatIsJoinedToALostBodyIsPutBackWithIt) {
+  constexpr std::uint64_t kChain = 6;
+  for (std::uint64_t lost = 1; lost <= kChain + 1; ++lost) {
+    std::vector<Instance> instances;
+    std::vector<JointSpec> joints;
+    for (std::uint64_t key = 1; key <= kChain + 1; ++key) {
+      BodySpec spec;
+      spec.mass_kg = 0.1;
+      spec.shape = BodyShape::kBox;
+      Instance instance = test::instanceOf(test::boxModel(Vec3::Constant(0.005)), key);
+      instance.body = makeRigidBody("link", spec, {Mat3::Identity(), Vec3(0.02 * static_cast<double>(key), 0, 0)},
+                                    instance.shape->bounds, {Vec3::Constant(-1), Vec3::Constant(1)});
+      instance.driver = instance.body->poses;
+      instances.push_back(instance);
+    }
+    for (std::uint64_t key = kChain; key > 1; --key) {
+      JointSpec joint;
+      joint.key = kChain + 1 - key;
+      joint.kind = JointKind::kBall;
+      joint.body_a = key;
+      joint.body_b = key - 1;
+      joint.anchor_W = Vec3(0.02 * static_cast<double>(key) - 0.01, 0, 0);
+      joints.push_back(joint);
+    }
+    const auto scene = makeSnapshot(instances, {}, 1, 0, {Vec3::Zero(), joints});
+    const auto world = BodyWorld::of(*scene);
+    world->step(1'000'000, kStep_s, {});
+    BodyCommand away;
+    away.key = lost;
+    away.position_m = Vec3(5, 0, 0);
+    BodyCommands commands;
+    commands.push(away);
+    world->act(commands);
+    world->step(2'000'000, kStep_s, {});
+    EXPECT_EQ(world->view().returned, lost <= kChain ? kChain : 1U) << lost;
+    for (std::uint64_t key = 1; key <= kChain + 1; ++key) {
+      EXPECT_NEAR(world->state().bodies[key - 1].centre.x(), 0.02 * static_cast<double>(key), 1e-9) << lost;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hl::test_joint_world
