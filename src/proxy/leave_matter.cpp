@@ -25,7 +25,7 @@ class WayOut {
         step_(std::max(convergence::kSitePerReach * reach, 2 * scene.extent() / convergence::kMaxSites)) {}
 
   bool clear(const Vec3& place) {
-    if (!open(place) || queries_ >= convergence::kMaxClearances) return false;
+    if (!open(place)) return false;
     ++queries_;
     return clearanceAt(scene_, place, reach_) >= reach_;
   }
@@ -39,6 +39,7 @@ class WayOut {
     for (int i = 1; i <= convergence::kMaxSites; ++i) {
       for (const Vec3& way : ways) {
         const Vec3 place = position + i * step_ * way;
+        if (queries_ == convergence::kMaxClearances) return false;
         if (stays_within_ && !staysWithin(place)) continue;
         if (!clear(place)) continue;
         position = place;
@@ -52,18 +53,24 @@ class WayOut {
   bool wasWithin(const Instance& instance) const {
     return std::find(within_.begin(), within_.end(), instance.key) != within_.end();
   }
+  Site siteAt(const Instance& instance, const Vec3& place) const {
+    scene_.countTest();
+    return siteOf(scene_, instance, place);
+  }
   bool open(const Vec3& place) const {
-    const auto& instances = scene_.snapshot().instances;
-    return std::none_of(instances.begin(), instances.end(), [&](const Instance& instance) {
-      if (!instance.shape->source || wasWithin(instance)) return false;
-      const Site site = siteOf(scene_, instance, place);
+    const Snapshot& snapshot = scene_.snapshot();
+    return std::none_of(snapshot.all_matter.begin(), snapshot.all_matter.end(), [&](std::uint32_t number) {
+      const Instance& instance = snapshot.instances[number];
+      if (wasWithin(instance)) return false;
+      const Site site = siteAt(instance, place);
       return site == Site::kMatter || site == Site::kBoundary;
     });
   }
   bool staysWithin(const Vec3& place) const {
-    const auto& instances = scene_.snapshot().instances;
-    return std::all_of(instances.begin(), instances.end(), [&](const Instance& instance) {
-      return !instance.shape->source || !wasWithin(instance) || siteOf(scene_, instance, place) == Site::kMatter;
+    const Snapshot& snapshot = scene_.snapshot();
+    return std::all_of(snapshot.all_matter.begin(), snapshot.all_matter.end(), [&](std::uint32_t number) {
+      const Instance& instance = snapshot.instances[number];
+      return !wasWithin(instance) || siteAt(instance, place) == Site::kMatter;
     });
   }
 

@@ -52,6 +52,8 @@ class SceneAt {
   double extent() const { return snapshot_.extent; }
   /// Total of all queries so far.
   const QueryCost& cost() const { return cost_; }
+  /// One more exact test, that was made beside the queries.
+  void countTest() const { ++cost_.primitives; }
 
   const Instance& instance(PrimitiveId id) const { return snapshot_.instances[id.instance]; }
   /// The shape that numbers the primitives of the instance at this time.

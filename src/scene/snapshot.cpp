@@ -65,6 +65,7 @@ std::vector<Placed> firstOf(const std::vector<Instance>& instances, std::shared_
 
 // Those whose matter hinders a motion are kept first: a hand feels them without a touch.
 void keepMostMatter(Snapshot& snapshot) {
+  snapshot.matter = snapshot.all_matter;
   if (snapshot.matter.size() <= kMaxMatter) return;
   std::stable_partition(snapshot.matter.begin(), snapshot.matter.end(),
                         [&](std::uint32_t number) { return snapshot.instances[number].shape->source->resists(); });
@@ -72,6 +73,18 @@ void keepMostMatter(Snapshot& snapshot) {
 }
 
 bool knowsMatter(const Shape& shape) { return shape.source && shape.source->siteOf(Vec3::Zero()) != Site::kUnknown; }
+
+// Of the instance that gets the next number: where those are to be found that not each query asks.
+void addToLists(const Instance& instance, Snapshot& snapshot) {
+  const auto number = static_cast<std::uint32_t>(snapshot.reach.size());
+  if (instance.mesh_motion) {
+    snapshot.deforming.push_back(number);
+    snapshot.deforms_until_ns = std::max(snapshot.deforms_until_ns, instance.mesh_motion->end_ns());
+  }
+  if (instance.poses().moves())
+    snapshot.moves_until_ns = std::max(snapshot.moves_until_ns, instance.poses().restsFrom_ns());
+  if (knowsMatter(*instance.shape)) snapshot.all_matter.push_back(number);
+}
 
 }  // namespace
 
@@ -96,7 +109,8 @@ std::size_t movingBodies(const Snapshot& snapshot) {
 std::size_t memoryOf(const Snapshot& snapshot) {
   std::set<const void*> counted;
   std::size_t bytes = snapshot.instances.capacity() * sizeof(Instance) + snapshot.reach.capacity() * sizeof(Box) +
-                      (snapshot.deforming.capacity() + snapshot.matter.capacity()) * sizeof(std::uint32_t) +
+                      (snapshot.deforming.capacity() + snapshot.matter.capacity() + snapshot.all_matter.capacity()) *
+                          sizeof(std::uint32_t) +
                       snapshot.near.bytes();
   for (const Instance& instance : snapshot.instances) {
     const auto add = [&](const std::shared_ptr<const Shape>& shape) {
@@ -132,11 +146,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
   snapshot->instances = byKey(std::move(instances));
   for (Instance& instance : snapshot->instances) {
     instance.plain = allDefault(instance.surfaces->materials);
-    if (instance.mesh_motion) {
-      snapshot->deforming.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
-      snapshot->deforms_until_ns = std::max(snapshot->deforms_until_ns, instance.mesh_motion->end_ns());
-    }
-    if (knowsMatter(*instance.shape)) snapshot->matter.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
+    addToLists(instance, *snapshot);
     snapshot->reach.push_back(reachOf(instance));
     const Box rest = boxAt(instance.shape->bounds, finalPose(instance));
     if (!rest.empty()) {
@@ -145,8 +155,6 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
     }
     snapshot->extent =
         std::max({snapshot->extent, largestCoordinate(objectBox(instance)), largestCoordinate(snapshot->reach.back())});
-    if (instance.poses().moves())
-      snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, instance.poses().restsFrom_ns());
     snapshot->primitives += instance.shape->elements();
   }
   snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->deforms_until_ns);

@@ -91,14 +91,15 @@ inline constexpr std::size_t kMaxMatter = 16;
 
 /// Immutable after makeSnapshot; read by any thread. Metres, world frame.
 struct Snapshot {
-  std::vector<Instance> instances;       ///< sorted by key
-  std::vector<Box> reach;                ///< of each instance: bounds during its whole motion, world frame
-  BoxTree near;                          ///< finds instances by `reach`
-  std::vector<std::uint32_t> deforming;  ///< numbers of instances whose mesh deforms
-  std::vector<std::uint32_t> matter;     ///< numbers of instances that know where their matter is, at most kMaxMatter
-  std::vector<PlacedSnap> snaps;         ///< of all instances, as many as may count, in their order
-  std::vector<PlacedField> fields;       ///< as `snaps`
-  Box bounds;                            ///< of all instances at their final poses
+  std::vector<Instance> instances;        ///< sorted by key
+  std::vector<Box> reach;                 ///< of each instance: bounds during its whole motion, world frame
+  BoxTree near;                           ///< finds instances by `reach`
+  std::vector<std::uint32_t> deforming;   ///< numbers of instances whose mesh deforms
+  std::vector<std::uint32_t> matter;      ///< numbers of instances that know where their matter is, at most kMaxMatter
+  std::vector<std::uint32_t> all_matter;  ///< the same without the limit: asked where a surface has replaced another
+  std::vector<PlacedSnap> snaps;          ///< of all instances, as many as may count, in their order
+  std::vector<PlacedField> fields;        ///< as `snaps`
+  Box bounds;                             ///< of all instances at their final poses
   /// m: largest absolute coordinate, in the world or in an object; distances have an error of a few units in its last
   /// place.
   double extent = 0;

@@ -190,6 +190,46 @@ TEST_F(OnPhantom, IsRealTime) {
   leaveMatter(state_, scene, kSettings, finger_);
 }
 
+// Exact tests made on the way out of the skin, with these others in the scene.
+std::size_t testsOnWayOut(const Snapshot& before, const ProxyState& within, const Vec3& finger,
+                          const std::vector<Instance>& others) {
+  std::vector<Instance> instances = before.instances;
+  instances[0].shape = withIso(*instances[0].shape, {-900});
+  instances[0].replaced_in = before.number + 1;
+  for (const Instance& one : others) {
+    instances.push_back(one);
+    instances.back().key = 1000 + instances.size();
+  }
+  const auto grown = makeSnapshot(std::move(instances), "", before.number + 1);
+  ProxyState state = within;
+  const SceneAt scene(*grown);
+  leaveMatter(state, scene, kSettings, finger);
+  EXPECT_GT((state.position - within.position).norm(), 1e-3);
+  return scene.cost().primitives;
+}
+
+// What is asked where matter is counts as work; meshes are not asked.
+TEST_F(OnPhantom, TheWayOutCountsAsWork) {
+  Model speck;
+  speck.positions = {{1, 0, 0}, {1.001, 0, 0}, {1, 0.001, 0}};
+  speck.triangles = {{0, 1, 2}};
+  Instance mesh;
+  mesh.shape = makeShape(speck);
+  mesh.surfaces = surfacesOf(mesh.shape);
+  Instance volume = scene_.shown().instances[1];
+  volume.motion = Motion({Mat3::Identity(), Vec3(0.5, 0, 0)});
+  scene_.setIso(0, 300);
+  for (int i = 0; i < 10; ++i) step(finger_);
+  const auto with = [&](const std::vector<Instance>& others) {
+    return testsOnWayOut(scene_.shown(), state_, finger_, others);
+  };
+  const std::size_t alone = with({mesh});  // the scene has the same extent in all cases, and so the way its places
+  EXPECT_EQ(with(std::vector<Instance>(1000, mesh)), alone);
+  std::vector<Instance> others(20, volume);
+  others.push_back(mesh);
+  EXPECT_GE(with(others), alone + 20);
+}
+
 // Waves of random form in air, random values, a finger anywhere.
 TEST(LeaveMatter, RandomVolumesAndValues) {
   Random random(5);
