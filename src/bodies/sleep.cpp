@@ -82,9 +82,10 @@ void wakeAll(WorldState& state) {
 }
 
 void wakeNearMoving(const World& world, WorldState& state, const StepTimes& times) {
-  for (const Instance& instance : world.fixed->instances) {
+  for (const std::uint32_t number : world.fixed->moving) {
+    const Instance& instance = world.fixed->instances[number];
     const PoseSource& poses = instance.poses();
-    if (!poses.moves() || times.begin_ns >= poses.restsFrom_ns()) continue;
+    if (times.begin_ns >= poses.restsFrom_ns()) continue;
     const Box reach = poses.reach(instance.shape->bounds);
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
       const Vec3 size = Vec3::Constant(world.bodies[i].shape.reach + kNear_m);

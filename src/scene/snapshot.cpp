@@ -81,8 +81,10 @@ void addToLists(const Instance& instance, Snapshot& snapshot) {
     snapshot.deforming.push_back(number);
     snapshot.deforms_until_ns = std::max(snapshot.deforms_until_ns, instance.mesh_motion->end_ns());
   }
-  if (instance.poses().moves())
+  if (instance.poses().moves()) {
+    snapshot.moving.push_back(number);
     snapshot.moves_until_ns = std::max(snapshot.moves_until_ns, instance.poses().restsFrom_ns());
+  }
   if (knowsMatter(*instance.shape)) snapshot.all_matter.push_back(number);
 }
 
@@ -109,7 +111,8 @@ std::size_t movingBodies(const Snapshot& snapshot) {
 std::size_t memoryOf(const Snapshot& snapshot) {
   std::set<const void*> counted;
   std::size_t bytes = snapshot.instances.capacity() * sizeof(Instance) + snapshot.reach.capacity() * sizeof(Box) +
-                      (snapshot.deforming.capacity() + snapshot.matter.capacity() + snapshot.all_matter.capacity()) *
+                      (snapshot.moving.capacity() + snapshot.deforming.capacity() + snapshot.matter.capacity() +
+                       snapshot.all_matter.capacity()) *
                           sizeof(std::uint32_t) +
                       snapshot.near.bytes();
   for (const Instance& instance : snapshot.instances) {

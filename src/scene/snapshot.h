@@ -94,6 +94,7 @@ struct Snapshot {
   std::vector<Instance> instances;        ///< sorted by key
   std::vector<Box> reach;                 ///< of each instance: bounds during its whole motion, world frame
   BoxTree near;                           ///< finds instances by `reach`
+  std::vector<std::uint32_t> moving;      ///< numbers of instances whose pose changes
   std::vector<std::uint32_t> deforming;   ///< numbers of instances whose mesh deforms
   std::vector<std::uint32_t> matter;      ///< numbers of instances that know where their matter is, at most kMaxMatter
   std::vector<std::uint32_t> all_matter;  ///< the same without the limit: asked where a surface has replaced another

@@ -180,5 +180,20 @@ TEST(SceneAt, WhatWasReadOfOneSnapshotIsNotTakenForAnother) {
   }
 }
 
+// What is asked in each step or tick need not look at all instances.
+TEST(SceneAt, TheSnapshotListsWhatMoves) {
+  test::Random random(3);
+  std::vector<Instance> instances;
+  for (std::uint64_t key = 1; key <= 5; ++key) {
+    Instance instance;
+    instance.shape = makeShape(randomModel(random), HierarchyKind::kNone);
+    instance.surfaces = surfacesOf(instance.shape);
+    instance.key = key;
+    if (key % 2 == 0) instance.motion = Motion().then(randomPose(random), 0, 1000);
+    instances.push_back(instance);
+  }
+  EXPECT_EQ(makeSnapshot(instances)->moving, (std::vector<std::uint32_t>{1, 3}));
+}
+
 }  // namespace
 }  // namespace hl::test_scene_at
