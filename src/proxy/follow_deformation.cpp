@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "proxy/contact_parts.h"
+#include "proxy/element_motion.h"
 
 namespace hl {
 
@@ -23,12 +24,7 @@ Vec3 displacement(const SceneAt& scene, std::uint32_t number, const ComplianceEs
   const PrimitiveId id{number, estimate.element};
   const MeshTransition* const way = instance.transitionAt(scene.time_ns());
   if (way == nullptr || way != instance.transitionAt(from_ns) || id.element >= way->to()->count()) return Vec3::Zero();
-  const auto before = way->corners(id.element, way->part(from_ns));
-  const auto now = way->corners(id.element, way->part(scene.time_ns()));
-  const auto order = scene.primitive(id).order;
-  Vec3 moved_O = Vec3::Zero();
-  for (std::size_t i = 0; i < 3; ++i) moved_O += estimate.weights[i] * (now[order[i]] - before[order[i]]);
-  return scene.turnToWorld(id, moved_O);
+  return scene.turnToWorld(id, displacementOf_O(scene, *way, id, estimate.weights, from_ns, scene.time_ns()));
 }
 
 }  // namespace

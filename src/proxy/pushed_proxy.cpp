@@ -1,6 +1,6 @@
 #include "proxy/pushed_proxy.h"
 
-#include <algorithm>
+#include "proxy/element_motion.h"
 
 namespace hl {
 
@@ -28,13 +28,7 @@ Vec3 deformedBy(const PushedProxy& proxy, const MeshTransition& way, std::int64_
   PrimitiveId held;
   ClosestPoint nearest;
   if (!touchedOfCarrier(proxy, scene, held, nearest)) return Vec3::Zero();
-  const Primitive& touched = scene.primitive(held);
-  if (touched.kind != way.to()->primitives.elementKind(held.element)) return Vec3::Zero();  // it is degenerate
-  const auto now = way.corners(held.element, way.part(proxy.now_ns));
-  const auto then = way.corners(held.element, way.part(time_ns));
-  Vec3 gone = Vec3::Zero();
-  for (std::size_t i = 0; i < 3; ++i) gone += nearest.weights[i] * (then[touched.order[i]] - now[touched.order[i]]);
-  return gone;
+  return displacementOf_O(scene, way, held, nearest.weights, proxy.now_ns, time_ns);
 }
 
 }  // namespace
@@ -53,12 +47,10 @@ Box PushedProxy::regionOf(const Vec3& way_end) const {
 }
 
 std::uint32_t movingInstance(const Snapshot& snapshot, std::uint64_t key) {
-  const auto& all = snapshot.instances;
-  const auto found =
-      std::lower_bound(all.begin(), all.end(), key, [](const Instance& a, std::uint64_t b) { return a.key < b; });
-  if (key == 0 || found == all.end() || found->key != key) return kNoInstance;
-  if (!found->poses().moves() && !found->mesh_motion) return kNoInstance;
-  return static_cast<std::uint32_t>(found - all.begin());
+  std::uint32_t number = 0;
+  if (key == 0 || !snapshot.find(key, number)) return kNoInstance;
+  const Instance& found = snapshot.instances[number];
+  return found.poses().moves() || found.mesh_motion ? number : kNoInstance;
 }
 
 }  // namespace hl
