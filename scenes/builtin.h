@@ -16,13 +16,11 @@ bool isBuiltinSurface(const std::string& spec);
 /// Whether that scene is of several objects, some of them bodies.
 bool hasBuiltinBodies(const std::string& spec);
 
-/// Lists of the names, for help texts: of what is one model, and with those of several objects.
-#define HL_BUILTIN_MODELS "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N"
-inline constexpr const char* kBuiltinModels = HL_BUILTIN_MODELS;
-inline constexpr const char* kBuiltinScenes = HL_BUILTIN_MODELS
-    ", field:terrain:N, ct:phantom:N, depth:table, points:sphere:N, points:terrain:N, sdf:torus, "
-    "sdf:gyroid, sdf:blend, sdf:spheres, sdf:bracket, snaps, workshop";
-#undef HL_BUILTIN_MODELS
+/// List of the names, for help texts.
+inline constexpr const char* kBuiltinScenes =
+    "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N, field:terrain:N, "
+    "ct:phantom:N, depth:table, points:sphere:N, points:terrain:N, sdf:torus, sdf:gyroid, sdf:blend, sdf:spheres, "
+    "sdf:bracket, snaps, workshop";
 
 /// Throws hl::Error with the list of names if the name is unknown.
 /// Of a scene of several objects, all of it as one model.

@@ -104,20 +104,6 @@ bool sleepsWhole(const World& world, const WorldState& state) {
   });
 }
 
-WorldState withoutBody(const World& world, const WorldState& state, std::uint64_t key) {
-  WorldState left = state;
-  const std::size_t body = world.numberOf(key);
-  if (body == World::kNoBody) return left;
-  wake(world, left, key);
-  left.bodies.erase(left.bodies.begin() + static_cast<std::ptrdiff_t>(body));
-  left.joints.clear();
-  for (std::size_t i = 0; i < world.joints.size(); ++i) {
-    const bool stays = world.joints[i].body_a != key && world.joints[i].body_b != key;
-    if (stays) left.joints.push_back(state.joints[i]);
-  }
-  return left;
-}
-
 bool wakePushed(const BodyProblem& problem, WorldState& state) {
   bool any = false;
   for (const Row& row : problem.rows) {

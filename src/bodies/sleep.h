@@ -18,8 +18,6 @@ void wakeAll(WorldState& state);
 void wakeNearMoving(const World& world, WorldState& state, const StepTimes& times);
 /// Whether of each joint both bodies sleep, or none. RT-safe.
 bool sleepsWhole(const World& world, const WorldState& state);
-/// What is left where the body, and its joints, are taken out of the world; what slept with it is awake. Allocates.
-WorldState withoutBody(const World& world, const WorldState& state, std::uint64_t key);
 
 /// Wakes what the rows push. False: nothing. RT-safe.
 bool wakePushed(const BodyProblem& problem, WorldState& state);

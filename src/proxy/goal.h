@@ -14,7 +14,6 @@ class Goal {
   const Vec3& place() const { return place_; }
   bool isFinger() const { return place_ == finger_; }
   void aimAt(const Vec3& place) { place_ = place; }
-  void aimAtFinger() { place_ = finger_; }
 
   /// Whether a is nearer to the goal than b, |goal - a| < |goal - b|. Computed from the difference of a and b, so that
   /// it is accurate however far the goal is.

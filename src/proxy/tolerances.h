@@ -195,7 +195,7 @@ inline constexpr int kAcross = 4;
 /// Number of spheres of candidates. Their radii in reaches are 1, sqrt 2, 2, ... up to kFarthestStart.
 inline constexpr int kSpheres = 14;
 /// In reaches: maximum distance of a candidate from the finger, not counting the pushes.
-inline constexpr double kFarthestStart = 100;
+inline constexpr double kFarthestStart = (1 << (kSpheres - 1) / 2) * (kSpheres % 2 == 0 ? M_SQRT2 : 1);
 /// Radius of the sweep of a push, as a fraction of the clearance. Despite rounding, the centre then crosses no surface.
 inline constexpr double kPushedPart = 0.5;
 

@@ -34,7 +34,6 @@ struct LatticeBox {
 class CloudPoints {
  public:
   static constexpr std::size_t kPerBlock = 16, kPerNode = 8;
-  static constexpr int kMaxLevels = 12;
 
   std::size_t blocks() const { return blocks_.size(); }
   std::size_t size() const { return size_; }

@@ -177,7 +177,9 @@ TEST(Sleep, WhatHeldItIsTakenAwayOrGravityChanges) {
   World left = *play.world;
   left.bodies.erase(left.bodies.begin() + 2);  // body 3
   Playground without(left, std::vector<Pose>(9));
-  without.state = withoutBody(*play.world, play.state, 3);
+  without.state = play.state;
+  wake(*play.world, without.state, 3);
+  without.state.bodies.erase(without.state.bodies.begin() + 2);
   EXPECT_FALSE(sleeps(without, 0, 4));
   EXPECT_TRUE(sleeps(without, 4, 9));
   without.steps(1500);

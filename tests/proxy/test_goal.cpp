@@ -12,7 +12,7 @@ TEST(Goal, IsTheFingerUntilItIsSetElsewhere) {
   goal.aimAt(Vec3(1, 2, 4));
   EXPECT_FALSE(goal.isFinger());
   EXPECT_EQ(goal.place(), Vec3(1, 2, 4));
-  goal.aimAtFinger();
+  goal.aimAt(Vec3(1, 2, 3));
   EXPECT_TRUE(goal.isFinger());
 }
 
