@@ -1,9 +1,9 @@
 #include "proxy/adhesion.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "proxy/adhesion_load.h"
+#include "proxy/contact_parts.h"
 #include "proxy/goal_tick.h"
 #include "proxy/spring_energy.h"
 #include "proxy/surface.h"
@@ -100,12 +100,9 @@ class AdheringTick {
   void reportForFinger(TickReport& report) const {
     const Vec3 whole = state_.position - finger_;
     report.target = finger_ + state_.stiffness * whole;
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> normals(3, report.contacts.size());
-    for (std::size_t i = 0; i < report.contacts.size(); ++i)
-      normals.col(static_cast<Eigen::Index>(i)) = report.contacts[i].normal;
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> shares = normals.colPivHouseholderQr().solve(whole);
+    const PartsAlongNormals parts = partsAlongNormals(report.contacts, whole);
     for (std::size_t i = 0; i < report.contacts.size(); ++i) {
-      report.contacts[i].multiplier_m = shares[static_cast<Eigen::Index>(i)];
+      report.contacts[i].multiplier_m = parts.along[i];
       report.contacts[i].holds_tangentially =
           true;  // the contact carries the proxy with the object until the next tick
     }

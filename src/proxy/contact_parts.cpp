@@ -1,5 +1,6 @@
 #include "proxy/contact_parts.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 
 namespace hl {
@@ -34,6 +35,16 @@ ContactParts partsOf(const FixedVector<ProxyContact, kMaxActive>& contacts, cons
   const Shares shares = frictionShares(contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i)
     parts[i] = contacts[i].multiplier_m * contacts[i].normal + shares[i] * tangential;
+  return parts;
+}
+
+PartsAlongNormals partsAlong(const FixedVector<Vec3, kMaxActive>& normals, const Vec3& v) {
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxActive> columns(3, normals.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = normals[i];
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxActive, 1> along = columns.colPivHouseholderQr().solve(v);
+  PartsAlongNormals parts;
+  for (std::size_t i = 0; i < normals.size(); ++i) parts.along[i] = along[static_cast<Eigen::Index>(i)];
+  parts.rest = v - columns * along;
   return parts;
 }
 

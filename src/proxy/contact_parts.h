@@ -19,6 +19,20 @@ using ContactParts = std::array<Vec3, kMaxActive>;
 /// contact. RT-safe.
 ContactParts partsOf(const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e);
 
+/// A vector by the normals of contacts: v = sum along[i] * normals[i] + rest, with the least rest. RT-safe.
+struct PartsAlongNormals {
+  std::array<double, kMaxActive> along{};
+  Vec3 rest = Vec3::Zero();
+};
+PartsAlongNormals partsAlong(const FixedVector<Vec3, kMaxActive>& normals, const Vec3& v);
+/// The same of whatever has a normal, at most kMaxActive of them.
+template <typename Contacts>
+PartsAlongNormals partsAlongNormals(const Contacts& contacts, const Vec3& v) {
+  FixedVector<Vec3, kMaxActive> normals;
+  for (const auto& contact : contacts) normals.push(contact.normal);
+  return partsAlong(normals, v);
+}
+
 /// N: forces of the contacts on the hand after the tick that returned `state` and `report` for `finger`: their parts of
 /// what no snap and no matter holds, times K s. RT-safe.
 ContactParts contactForces_N(const ProxySettings& settings, const ProxyState& state, const TickReport& report,

@@ -1,6 +1,5 @@
 #include "proxy/yielding.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <optional>
 
@@ -44,12 +43,9 @@ double keptOf(double spring_N_m, double compliance_m_N) { return 1 / (1 + spring
 
 // Parts of `v`, along the normals and the rest.
 void addParts(const Vec3& v, YieldingContacts& contacts) {
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> normals(3, contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) normals.col(static_cast<Eigen::Index>(i)) = contacts[i].normal;
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> along = normals.colPivHouseholderQr().solve(v);
-  const Vec3 rest = (v - normals * along) / static_cast<double>(contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    contacts[i].part_m += along[static_cast<Eigen::Index>(i)] * contacts[i].normal + rest;
+  const PartsAlongNormals parts = partsAlongNormals(contacts, v);
+  const Vec3 rest = parts.rest / static_cast<double>(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].part_m += parts.along[i] * contacts[i].normal + rest;
 }
 
 struct YieldingSpring {
