@@ -105,7 +105,9 @@ HL_API void hlCancelFrame(void);
  * that HL_REFUSED and HL_CONNECTION_LOST may show here. HL_INVALID_OPERATION in a definition.
  *
  * Nothing of a frame that is refused or dropped is there: neither the world nor any object, texture or deletion of it,
- * those without a fault included. What it defined is to be defined again.
+ * those without a fault included. What it defined is to be defined again. The context notices when it takes the reply:
+ * then hlIsObject, hlIsTexture and the vertices that hlUpdateVertices counts are as before that frame, but for what
+ * later frames have defined or deleted, and units have no texture bound that is gone.
  *
  * What is drawn elsewhere than in the frame before moves there, and what has other vertices bends, in the time between
  * the last two frames, at most 100 ms: smoothly at any rate, and felt one frame late. Motion begins 2 ms after the
@@ -272,7 +274,8 @@ HL_API void hlCancelObject(void);
  * HL_INVALID_OPERATION: it calls, directly or not, the object that is being defined. */
 HL_API void hlCallObject(HLuint object);
 /** Forgets objects; where they are called there is nothing from the next frame on, until they are defined again. 0 and
- * unknown numbers are ignored. HL_INVALID_VALUE: n < 0. HL_INVALID_OPERATION in a definition. */
+ * unknown numbers are ignored. Where the world has a joint of such a body, it is to be drawn without that joint in the
+ * same frame: see hlJoin. HL_INVALID_VALUE: n < 0. HL_INVALID_OPERATION in a definition. */
 HL_API void hlDeleteObjects(HLsizei n, const HLuint* objects);
 /** Moves `count` vertices of `object` from number `first` on, with the next hlFlush, and touches nothing else of it: a
  * mesh that bends costs what has moved, not the whole. Vertices count from 0 in the order in which the definition drew
@@ -301,7 +304,7 @@ HL_API void hlVolumeIso(HLuint object, HLint surface, HLdouble iso);
  * number is out of its range. HL_INVALID_OPERATION: in a definition. */
 HL_API void hlCompliance(HLuint object, HLdouble normal, HLdouble tangential, const HLdouble* force);
 /** HL_TRUE: this program has defined it (hlEndObject has been called) and not deleted it; the server need not have
- * taken it, see hlFlush. */
+ * taken it yet; when it refuses, it has not been defined, or deleted: see hlFlush. */
 HL_API HLboolean hlIsObject(HLuint object);
 
 /* ---- Bodies: each call of a body's object moves as a rigid body -------------------------------------------------- */

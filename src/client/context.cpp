@@ -13,6 +13,10 @@ void dropImageless(ItemList& list, const hl::client::TextureTable& textures) {
 
 }  // namespace
 
+HLcontext::HLcontext(hl::client::Conversation with) : conversation(std::move(with)) {
+  conversation.onTakeBack([this](hl::client::FrameChanges&& refused) { takeBack(std::move(refused)); });
+}
+
 ItemList& HLcontext::target() {
   if (definition) return definition->items;
   if (!frame.world) frame.world.emplace();
@@ -27,18 +31,31 @@ Draft HLcontext::closeFrame() {
   }
   if (closed.world) {
     dropImageless(*closed.world, textures);
-    world_textures = closed.world->uses().textures;
+    closed.changes.world_textures = std::exchange(world_textures, closed.world->uses().textures);
   }
   auto changes = textures.takeChanges(textures.hasRemoved() ? usedTextures() : std::set<HLuint>{});
   closed.textures = std::move(changes.images);
   closed.deleted_textures = std::move(changes.removed);
-  objects.keepChanges();
+  closed.changes.textures = std::move(changes.before);
+  closed.changes.removed_textures = closed.deleted_textures;
+  closed.changes.objects = objects.takeChanges();
   return closed;
 }
 
+void HLcontext::takeBack(hl::client::FrameChanges&& refused) {
+  objects.takeBack(std::move(refused.objects));
+  textures.takeBack(std::move(refused.textures), refused.removed_textures);
+  if (refused.world_textures) world_textures = std::move(*refused.world_textures);
+  unbindMissing();
+}
+
 void HLcontext::unbindMissing() {
-  for (hl::client::TextureUse& use : draw.attributes.now.textures.uses)
-    if (!textures.contains(use.texture)) use.texture = 0;
+  const auto unbind = [this](hl::client::DrawState& state) {
+    for (hl::client::TextureUse& use : state.attributes.now.textures.uses)
+      if (!textures.contains(use.texture)) use.texture = 0;
+  };
+  unbind(draw);
+  if (definition) unbind(definition->outside);
 }
 
 void HLcontext::leaveDefinition() {

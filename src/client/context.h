@@ -44,7 +44,7 @@ struct Definition {
 
 /// Opaque to applications.
 struct HLcontext {
-  explicit HLcontext(hl::client::Conversation with) : conversation(std::move(with)) {}
+  explicit HLcontext(hl::client::Conversation with);
 
   hl::client::ErrorState errors;
   hl::client::Conversation conversation;
@@ -61,7 +61,7 @@ struct HLcontext {
   bool solid_below = false;           ///< of the surfaces of volumes that are drawn next
   hl::proto::Joint joint;             ///< that hlJoin makes next
   hl::client::Draft frame;            ///< since the last flush; its textures are added when it is closed
-  std::set<HLuint> world_textures;    ///< that the world used when a frame was last closed
+  std::set<HLuint> world_textures;    ///< that the world uses which was drawn last and not refused
   std::string text;                   ///< what hlGetString returned last
   std::atomic<bool> current = false;  ///< on some thread
 
@@ -69,6 +69,8 @@ struct HLcontext {
   hl::client::ItemList& target();
   /// What has been recorded since the last flush, complete; a new frame begins.
   hl::client::Draft closeFrame();
+  /// The tables are as if a frame had not been that the server has refused.
+  void takeBack(hl::client::FrameChanges&& refused);
   /// Textures that are no more are bound no more.
   void unbindMissing();
   /// Drawing goes on as it was before the open definition, which ends.

@@ -31,6 +31,8 @@ class Conversation {
   /// As given by the server at the beginning or set here since, N/m.
   double springStiffness_N_m() const;
 
+  /// See Outbox.
+  void onTakeBack(Outbox::TakeBack take_back) { outbox_.onTakeBack(std::move(take_back)); }
   /// The frame waits until sendFrame().
   void add(Draft&& draft);
   /// Sends the waiting frame if this is the moment; see Outbox.

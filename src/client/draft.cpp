@@ -61,6 +61,7 @@ void Draft::merge(Draft&& later) {
   if (later.world) world = std::move(later.world);
   mergeNumbered(objects, deleted_objects, std::move(later.objects), later.deleted_objects);
   mergeNumbered(textures, deleted_textures, std::move(later.textures), later.deleted_textures);
+  changes.merge(std::move(later.changes));
 }
 
 }  // namespace hl::client

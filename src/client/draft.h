@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/frame_changes.h"
 #include "client/item_list.h"
 #include "client/texture_table.h"
 
@@ -44,6 +45,8 @@ struct Draft {
   std::set<HLuint> deleted_textures;               ///< in none of `textures`
 
   std::optional<std::array<double, 3>> gravity_m_s2;  ///< absent: unchanged
+
+  FrameChanges changes;  ///< what all this has changed in the context's tables
 
   bool isEmpty() const;
   bool hasBodies() const;

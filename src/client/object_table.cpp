@@ -16,6 +16,11 @@ void ObjectTable::define(HLuint object, const ItemList& items) {
   numbers_.choose(object);
 }
 
+void ObjectTable::takeBack(TableChanges<KnownObject> taken) {
+  changes_.inheritFrom(taken);
+  taken.undo(objects_);
+}
+
 bool ObjectTable::reaches(HLuint from, HLuint to) const {
   std::set<HLuint> seen{from};
   std::vector<HLuint> open{from};

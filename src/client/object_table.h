@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "client/free_numbers.h"
@@ -15,6 +16,13 @@
 #include "client/table_changes.h"
 
 namespace hl::client {
+
+/// What is known of an object that is defined.
+struct KnownObject {
+  Uses uses;
+  std::vector<ItemVertices> vertices;
+  std::vector<std::uint32_t> volumes;
+};
 
 class ObjectTable {
  public:
@@ -29,22 +37,19 @@ class ObjectTable {
   const std::vector<std::uint32_t>& volumes(HLuint object) const { return objects_.at(object).volumes; }
   /// Returns whether it was defined.
   bool remove(HLuint object);
-  /// What was defined and removed since the last call of either: stays so, or is undone.
-  void keepChanges() { changes_.forget(); }
+  /// What was defined and removed since the last call of either: as it was before, to be undone later; or undone now.
+  TableChanges<KnownObject> takeChanges() { return std::exchange(changes_, {}); }
   void undoChanges() { changes_.undo(objects_); }
+  /// Undoes changes that were taken, but for objects that have changed since.
+  void takeBack(TableChanges<KnownObject> taken);
   /// Whether `from` is `to` or calls it, directly or not.
   bool reaches(HLuint from, HLuint to) const;
   /// Those of all objects.
   std::set<HLuint> usedTextures() const;
 
  private:
-  struct Known {
-    Uses uses;
-    std::vector<ItemVertices> vertices;
-    std::vector<std::uint32_t> volumes;
-  };
-  std::map<HLuint, Known> objects_;
-  TableChanges<Known> changes_;
+  std::map<HLuint, KnownObject> objects_;
+  TableChanges<KnownObject> changes_;
   FreeNumbers numbers_;
 };
 

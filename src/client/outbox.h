@@ -1,4 +1,5 @@
-// Outbox: decides when a flushed frame goes to the server, and remembers which frames have not been answered.
+// Outbox: decides when a flushed frame goes to the server, and remembers which frames have not been answered, and what
+// they change: that is taken back when one is refused or dropped.
 #pragma once
 
 #include <hl.pb.h>
@@ -6,9 +7,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
-#include <set>
+#include <utility>
 
 #include "client/draft.h"
 #include "wire/link.h"
@@ -26,8 +29,15 @@ class Outbox {
  public:
   enum class Outcome { kNothingToSend, kSent, kTooMuchQueued, kTooEarly };
 
-  /// The frame waits, together with one that waits already.
-  void add(Draft&& draft) { waiting_.merge(std::move(draft)); }
+  using TakeBack = std::function<void(FrameChanges&&)>;
+
+  /// Is called with what a frame has changed that is refused or dropped; what later frames have changed since is not in
+  /// it. To be set before the first frame.
+  void onTakeBack(TakeBack take_back) { take_back_ = std::move(take_back); }
+  /// The frame waits, together with one that waits already. One with nothing in it is not sent, nor refused.
+  void add(Draft&& draft) {
+    if (!draft.isEmpty()) waiting_.merge(std::move(draft));
+  }
   bool hasWaiting() const { return !waiting_.isEmpty(); }
   /// Sends what waits, if this is the moment. Throws Fault HL_OUT_OF_MEMORY and drops it when it is too large.
   Outcome trySend(Link& link, const proto::Limits& limits, std::optional<double> interval_s);
@@ -44,7 +54,8 @@ class Outbox {
 
  private:
   Draft waiting_;
-  std::set<std::uint64_t> unanswered_;  // frames
+  std::map<std::uint64_t, FrameChanges> unanswered_;  // by the frame's number
+  TakeBack take_back_;
   std::uint64_t last_sent_ = 0;
   std::uint64_t next_upload_ = 1;
   std::int64_t last_sent_ns_ = std::numeric_limits<std::int64_t>::min();

@@ -1,5 +1,5 @@
-// TableChanges: the entries of a table by number as they were before they were changed, so that the changes can be
-// undone.
+// TableChanges: the entries of a table by number as they were before a frame changed them, so that the changes can be
+// undone, also when later frames have changed some of them again.
 #pragma once
 
 #include <hl/hl_types.h>
@@ -21,8 +21,16 @@ class TableChanges {
     const auto found = table.find(number);
     before_[number] = found == table.end() ? std::nullopt : std::optional(found->second);
   }
-  /// The changes stay.
-  void forget() { before_.clear(); }
+  /// Both become one: these, and then `later`.
+  void merge(TableChanges&& later) { before_.merge(later.before_); }
+  /// The `earlier` ones are to be undone, and these stay: of the entries that both have changed it is left to these to
+  /// go back to what was before both.
+  void inheritFrom(TableChanges& earlier) {
+    for (auto& [number, entry] : before_) {
+      auto inherited = earlier.before_.extract(number);
+      if (!inherited.empty()) entry = std::move(inherited.mapped());
+    }
+  }
   void undo(Table& table) {
     for (auto& [number, entry] : before_) {
       if (entry)
@@ -30,7 +38,7 @@ class TableChanges {
       else
         table.erase(number);
     }
-    forget();
+    before_.clear();
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "client/fault.h"
 
@@ -21,6 +22,16 @@ void TextureTable::undoChanges() {
   changes_.undo(textures_);
   changed_.clear();
   removed_ = removed_before_;
+}
+
+void TextureTable::takeBack(TableChanges<Texture> taken, const std::set<HLuint>& removed) {
+  changes_.inheritFrom(taken);
+  taken.undo(textures_);
+  for (const HLuint texture : removed) {
+    if (hasImage(texture)) continue;
+    removed_.insert(texture);
+    removed_before_.insert(texture);
+  }
 }
 
 void TextureTable::bind(HLuint texture) {
@@ -63,7 +74,7 @@ TextureTable::Changes TextureTable::takeChanges(const std::set<HLuint>& used) {
     return true;
   });
   removed_before_ = removed_;
-  changes_.forget();
+  changes.before = std::exchange(changes_, {});
   return changes;
 }
 

@@ -43,11 +43,14 @@ class TextureTable {
   struct Changes {
     std::map<HLuint, Texture> images;
     std::set<HLuint> removed;
+    TableChanges<Texture> before;  ///< the table's entries, to be undone later
   };
   Changes takeChanges(const std::set<HLuint>& used);
   bool hasRemoved() const { return !removed_.empty(); }
   /// As it was after the last takeChanges().
   void undoChanges();
+  /// Undoes changes that were taken, but for textures that have changed since. `removed`: those that they removed.
+  void takeBack(TableChanges<Texture> taken, const std::set<HLuint>& removed);
 
  private:
   std::set<HLuint> changed_, removed_;

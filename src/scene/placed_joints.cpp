@@ -43,7 +43,8 @@ class BodiesByCall {
     };
     const std::string what = "object " + std::to_string(called.object) +
                              (called.name ? " and name " + std::to_string(*called.name) : std::string());
-    if (!matches()) throw Error(joint + ": the world calls no body of " + what);
+    if (!matches())
+      throw Error(joint + ": the world calls no body of " + what + ": draw one, or the world without the joint");
     const PlacedShape& found = **at;
     ++at;
     if (matches()) throw Error(joint + ": the world calls several bodies of " + what + ": give each call its own name");

@@ -160,11 +160,11 @@ TEST_F(SessionJointsTest, OneThatMakesNoSenseRefusesTheFrameAndChangesNothing) {
   EXPECT_EQ(refused([](Spoiled& j) { j.set_id(0); }), "world.joints[0].id must not be 0");
   EXPECT_EQ(refused([](Spoiled& j) { j.clear_body_a(); }), "joint 7.bodyA.object must not be 0");
   EXPECT_EQ(refused([](Spoiled& j) { j.mutable_body_a()->set_name(12); }),
-            "joint 7: the world calls no body of object 2 and name 12");
+            "joint 7: the world calls no body of object 2 and name 12: draw one, or the world without the joint");
   EXPECT_EQ(refused([](Spoiled& j) { j.mutable_body_a()->set_object(9); }),
-            "joint 7: the world calls no body of object 9 and name 11");
+            "joint 7: the world calls no body of object 9 and name 11: draw one, or the world without the joint");
   EXPECT_EQ(refused([](Spoiled& j) { j.mutable_body_b()->set_object(1); }),
-            "joint 7: the world calls no body of object 1");
+            "joint 7: the world calls no body of object 1: draw one, or the world without the joint");
   EXPECT_EQ(refused([](Spoiled& j) { j.mutable_body_b()->set_object(2); }), "joint 7: it joins a body to itself");
   EXPECT_EQ(refused([](Spoiled& j) { j.mutable_joint()->set_body_a("floor"); }),
             "joint 7.joint: name, bodyA and bodyB are of scene files: leave them out");

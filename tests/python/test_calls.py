@@ -1,0 +1,65 @@
+"""Whose a connection is: as the server has it."""
+import time
+import unittest
+
+import numpy as np
+
+import hl
+from hl import calls
+
+BOX = (np.array([[x, y, z] for x in (-0.01, 0.01) for y in (-0.01, 0.01) for z in (-0.01, 0.01)]),
+       np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]))
+BODY, HINGE = 6, 1
+PATIENCE_S = 20.0
+
+
+class Connected(unittest.TestCase):
+    def setUp(self):
+        self.touch = self.enterContext(hl.connect(name="test"))
+
+    def wait_until(self, condition):
+        ends = time.monotonic() + PATIENCE_S
+        while not condition():
+            self.assertLess(time.monotonic(), ends)
+            self.touch.state()
+            time.sleep(0.01)
+
+    def hang_a_body(self):
+        with self.touch.frame():
+            with self.touch.define(BODY):
+                self.touch.body("box", mass=0.1)
+                self.touch.draw(*BOX, mode=calls.HL_QUADS)
+            self.touch.place(BODY, [[1, 0, 0, 0], [0, 1, 0, 0.2], [0, 0, 1, 0], [0, 0, 0, 1]])
+            self.touch.join(HINGE, BODY, kind="hinge", axis=(0, 0, 1), anchor=(0, 0.2, 0))
+        self.wait_until(lambda: len(self.touch.bodies()) == 1 and len(self.touch.joints()) == 1)
+
+
+class Refusals(Connected):
+    def test_after_a_deletion_that_is_refused_the_object_is_there_still(self):
+        self.hang_a_body()
+        with self.assertRaisesRegex(hl.RefusedError, "draw one, or the world without the joint"):
+            with self.touch.frame():
+                self.touch.delete(BODY)
+        self.assertTrue(calls.hlIsObject(BODY))
+        with self.touch.frame():
+            self.touch.clear()
+            self.touch.delete(BODY)
+        self.assertFalse(calls.hlIsObject(BODY))
+        self.wait_until(lambda: len(self.touch.bodies()) + len(self.touch.joints()) == 0)
+
+    def test_after_a_redefinition_that_is_refused_the_mesh_before_can_be_bent(self):
+        with self.touch.frame():
+            with self.touch.define(9):
+                self.touch.draw(*BOX, mode=calls.HL_QUADS)
+            self.touch.place(9, np.eye(4))
+        with self.assertRaises(hl.RefusedError):
+            with self.touch.frame():
+                with self.touch.define(9):
+                    self.touch.body("hull", mass=0.1)
+                    self.touch.draw(BOX[0][:3])
+        with self.touch.frame():
+            self.touch.update_vertices(9, BOX[0] * 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
