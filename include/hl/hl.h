@@ -2,7 +2,9 @@
  * of a force-feedback device into forces. C99 and C++; hl.hpp adds scopes and spans.
  *
  * Context. Every call but hlCreateContext, hlMakeCurrent and hlDestroyContext works on the thread's current context, as
- * in GL. A context is current on one thread at a time; different contexts do not know of each other.
+ * in GL. A context is current on one thread at a time; different contexts do not know of each other. After fork() they
+ * are of the parent alone: the child has no current context, cannot make one of them current, and hlDestroyContext does
+ * nothing with them there. hlCreateContext works in it, but for inproc: where the parent had such a context.
  *
  * Errors. A call that makes an error changes nothing else. The context keeps its first error until hlGetError takes it.
  * Without a current context a call does nothing, returns 0, and the thread keeps HL_NO_CONTEXT. NaN and infinities are
@@ -65,13 +67,14 @@ HL_API HLcontext* hlCreateContext(const char* url);
  * hlCreateContext. */
 HL_API const char* hlGetConnectError(void);
 /** Makes `context` the thread's current one; NULL: none. HL_FALSE, with HL_INVALID_OPERATION on the context that was
- * and stays current (or on the thread), when `context` is current on another thread, or between hlBegin and hlEnd. */
+ * and stays current (or on the thread), when `context` is current on another thread, or of the process that this one
+ * was forked from, or between hlBegin and hlEnd. */
 HL_API HLboolean hlMakeCurrent(HLcontext* context);
 /** The thread's current context; NULL: none. Never an error. */
 HL_API HLcontext* hlGetCurrentContext(void);
 /** Ends the conversation and frees the context; what was not flushed is lost. Current on this thread: the thread has
  * none afterwards. Current on another thread, or in one of its own callbacks: HL_INVALID_OPERATION and nothing happens.
- * NULL: nothing happens. */
+ * NULL, or of the process that this one was forked from: nothing happens. */
 HL_API void hlDestroyContext(HLcontext* context);
 
 /** Returns the kept error and forgets it; HL_NO_ERROR when there is none. Without a context: the thread's. Between

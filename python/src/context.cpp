@@ -1,6 +1,7 @@
 // Contexts in Python: who is current, errors as exceptions, events as callbacks on the thread that polls.
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
+#include <unistd.h>
 #include <hl/hl.hpp>
 
 #include <algorithm>
@@ -61,8 +62,7 @@ class Context {
   bool isCurrent() const { return context_ && hlGetCurrentContext() == context_->get(); }
   void makeCurrent() {
     if (!context_) throw CallFailed(HL_INVALID_OPERATION, "the connection is closed");
-    if (!isCurrent() && hlMakeCurrent(context_->get()) == HL_FALSE)
-      throwOfThread(HL_INVALID_OPERATION, "the context is current on another thread");
+    if (!isCurrent()) takeOver();
     current_ = this;
   }
   /// As makeCurrent(), for a call that needs the server.
@@ -81,7 +81,7 @@ class Context {
   void close() {
     if (!context_) return;
     if (polls_) throw CallFailed(HL_INVALID_OPERATION, "close: not in a callback of poll; close it afterwards");
-    makeCurrent();
+    if (!isOfAnotherProcess()) makeCurrent();
     current_ = nullptr;
     const OtherThreadsRun other_threads_run;
     context_.reset();
@@ -101,6 +101,16 @@ class Context {
   }
 
  private:
+  bool isOfAnotherProcess() const { return made_in_ != getpid(); }
+
+  void takeOver() {
+    if (isOfAnotherProcess())
+      throw CallFailed(HL_INVALID_OPERATION,
+                       "the connection is of the process that this one was forked from; use multiprocessing's spawn");
+    if (hlMakeCurrent(context_->get()) == HL_FALSE)
+      throwOfThread(HL_INVALID_OPERATION, "the context is current on another thread");
+  }
+
   static std::unique_ptr<hl::Context> open(const std::string& url) {
     try {
       const OtherThreadsRun other_threads_run;
@@ -112,6 +122,7 @@ class Context {
 
   inline static thread_local Context* current_ = nullptr;  // may be that of a context that is current no more
 
+  const pid_t made_in_ = getpid();
   bool polls_ = false;  ///< within poll(), where callbacks run
   std::string lost_;    ///< why the conversation has ended; empty: it has not
   std::unique_ptr<hl::Context> context_;

@@ -17,8 +17,10 @@ namespace hl::client {
 extern constinit thread_local HLcontext* current_context;
 /// The context that is current on this thread; null: none.
 inline HLcontext* currentContext() noexcept { return current_context; }
-/// Throws Fault when it is current on another thread.
+/// Throws Fault when it is current on another thread, or of another process.
 void setCurrentContext(HLcontext* context);
+/// Why the thread has none, for errors.
+const char* whyNoContext() noexcept;
 /// Errors of calls without a context.
 ErrorState& threadErrors() noexcept;
 /// Those of the current context, else the thread's.
@@ -40,7 +42,7 @@ template <typename Result, typename Body>
 Result callOr(Result otherwise, const char* function, When when, Body body) noexcept {
   HLcontext* context = currentContext();
   if (context == nullptr) {
-    threadErrors().note(HL_NO_CONTEXT, function, "the thread has no current context");
+    threadErrors().note(HL_NO_CONTEXT, function, whyNoContext());
     return otherwise;
   }
   try {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hl/hl_types.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <optional>
@@ -46,6 +47,10 @@ struct Definition {
 struct HLcontext {
   explicit HLcontext(hl::client::Conversation with);
 
+  /// In a process that is forked from the one that made it: it has memory of its own there, but no threads.
+  bool isOfAnotherProcess() const { return made_in != getpid(); }
+
+  const pid_t made_in = getpid();
   hl::client::ErrorState errors;
   hl::client::Conversation conversation;
   hl::client::EventQueue events;

@@ -93,7 +93,7 @@ HLboolean hlMakeCurrent(HLcontext* context) {
 HLcontext* hlGetCurrentContext(void) { return hl::client::currentContext(); }
 
 void hlDestroyContext(HLcontext* context) {
-  if (context == nullptr) return;
+  if (context == nullptr || context->isOfAnotherProcess()) return;
   try {
     requireDestroyable(context);
     if (context == hl::client::currentContext()) hl::client::setCurrentContext(nullptr);

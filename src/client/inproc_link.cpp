@@ -1,5 +1,7 @@
 #include "client/inproc_link.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <condition_variable>
@@ -20,9 +22,14 @@ std::shared_ptr<SessionHost> processServer(const std::string& sim) {
   static std::mutex mutex;
   static std::weak_ptr<TouchServer> running;
   static std::string device;  // of the running one
+  static pid_t process = 0;   // that has its threads
   const std::lock_guard lock(mutex);
   const std::string wanted = sim.empty() ? "sim" : "sim:" + sim;
   std::shared_ptr<TouchServer> server = running.lock();
+  if (server && process != getpid())
+    throw Error(
+        "the server of this process is in the one that it was forked from: start a program of its own, by exec,"
+        " to use inproc: there");
   if (server && !sim.empty() && device != wanted)
     throw Error("the server of this process has the device " + device + " already, and " + wanted + " is wanted");
   if (server) return server;
@@ -33,6 +40,7 @@ std::shared_ptr<SessionHost> processServer(const std::string& sim) {
   server = std::make_shared<TouchServer>(makeSnapshot(std::vector<Instance>{}, "inproc"), settings);
   server->start();
   running = server;
+  process = getpid();
   device = wanted;
   return server;
 }

@@ -3,6 +3,8 @@
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 #include <hl/hl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
@@ -357,6 +359,31 @@ TEST(Inproc, TheFirstContextSaysWhichDeviceIsSimulated) {
   EXPECT_NE(std::string(hlGetConnectError()).find("premium1.0"), std::string::npos) << hlGetConnectError();
   EXPECT_EQ(hlCreateContext("hl://127.0.0.1:1?sim=premium1.5"), nullptr);
   EXPECT_NE(std::string(hlGetConnectError()).find("inproc:"), std::string::npos) << hlGetConnectError();
+}
+
+// 0, or the number of what is not as it is to be.
+int leaveInChild(HLcontext* context) {
+  hlFlush();
+  if (hlGetError() != HL_NO_CONTEXT) return 1;
+  if (hlMakeCurrent(context) == HL_TRUE || hlGetError() != HL_INVALID_OPERATION) return 2;
+  if (hlCreateContext("inproc:") != nullptr) return 3;
+  if (std::string(hlGetConnectError()).find("forked") == std::string::npos) return 4;
+  hlDestroyContext(context);
+  return hlGetError() == HL_NO_ERROR ? 0 : 5;
+}
+
+TEST(Inproc, AForkedChildLeavesTheContextToItsParent) {
+  HLcontext* const context = hlCreateContext("inproc:");
+  ASSERT_NE(context, nullptr) << hlGetConnectError();
+  hlMakeCurrent(context);
+  const pid_t child = fork();
+  if (child == 0) _exit(leaveInChild(context));
+  int status = -1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  floorOf(1, 0);
+  EXPECT_EQ(hlFinishTimeout(60), HL_TRUE);
+  hlDestroyContext(context);
 }
 
 TEST(Inproc, SamplesOfTheDeviceComeWithoutAGap) {

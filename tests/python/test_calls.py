@@ -1,4 +1,7 @@
-"""Whose a connection is: as the server has it."""
+"""Whose a connection is: of one process, and as the server has it."""
+import os
+import subprocess
+import sys
 import time
 import unittest
 
@@ -59,6 +62,25 @@ class Refusals(Connected):
                     self.touch.draw(BOX[0][:3])
         with self.touch.frame():
             self.touch.update_vertices(9, BOX[0] * 2)
+
+
+class Owners(Connected):
+    def test_a_forked_child_leaves_the_connection_to_its_parent(self):
+        child = os.fork()
+        if child == 0:
+            try:
+                self.touch.state()
+                os._exit(1)
+            except hl.InvalidOperationError as error:
+                self.touch.close()
+                os._exit(0 if "forked" in str(error) else 2)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+        self.touch.state()
+
+    def test_a_forked_child_ends_without_a_crash(self):
+        script = "import hl, os\nhere = hl.connect()\nif os.fork() == 0: raise SystemExit(0)\nprint(os.wait()[1])"
+        run = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
+        self.assertEqual(run.stdout, "0\n")
 
 
 if __name__ == "__main__":
