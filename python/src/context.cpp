@@ -41,10 +41,19 @@ void keepFailure(HLenum code, const char* text, void* lost) {
   throw CallFailed(code != HL_NO_ERROR ? code : otherwise, text);
 }
 
+/// Python's threads can be joined before C++ has destroyed their variables, where HL lets go of a thread's context; so
+/// it goes with Python's own variables of the thread.
+void letGoWithThread() {
+  constexpr const char* kName = "hl.context";
+  const auto variables = py::reinterpret_borrow<py::dict>(PyThreadState_GetDict());
+  if (variables && !variables.contains(kName)) variables[kName] = py::capsule([] { hlMakeCurrent(nullptr); });
+}
+
 class Context {
  public:
   explicit Context(const std::string& url) : context_(open(url)) {
     hlErrorFunc(&keepFailure, &lost_);
+    letGoWithThread();
     current_ = this;
   }
   /// A context that is current on another thread cannot be destroyed here; it ends with the process.
@@ -109,6 +118,7 @@ class Context {
                        "the connection is of the process that this one was forked from; use multiprocessing's spawn");
     if (hlMakeCurrent(context_->get()) == HL_FALSE)
       throwOfThread(HL_INVALID_OPERATION, "the context is current on another thread");
+    letGoWithThread();
   }
 
   static std::unique_ptr<hl::Context> open(const std::string& url) {

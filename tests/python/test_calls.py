@@ -1,7 +1,8 @@
-"""Whose a connection is: of one process, and as the server has it."""
+"""Whose a connection is: of one process, one thread at a time, and as the server has it."""
 import os
 import subprocess
 import sys
+import threading
 import time
 import unittest
 
@@ -81,6 +82,15 @@ class Owners(Connected):
         script = "import hl, os\nhere = hl.connect()\nif os.fork() == 0: raise SystemExit(0)\nprint(os.wait()[1])"
         run = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
         self.assertEqual(run.stdout, "0\n")
+
+    def test_another_thread_can_take_it_over_as_soon_as_the_last_one_is_joined(self):
+        with hl.connect(name="second") as second:
+            for _ in range(300):
+                self.touch.make_current()  # this thread lets go of the other one
+                thread = threading.Thread(target=second.state)
+                thread.start()
+                thread.join()
+                second.state()
 
 
 if __name__ == "__main__":
