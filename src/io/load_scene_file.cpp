@@ -341,7 +341,7 @@ Pose SceneFile::poseOf(const proto::Transform& in, const std::string& where) con
     if (!axis) fail(where + ".axis", where + ".axis must not be zero when degrees are given");
     pose.rotation = Eigen::AngleAxisd(in.degrees() * M_PI / 180, *axis).toRotationMatrix();
   }
-  pose.origin = vecOf(in.translate());
+  pose.origin = decoder_.checked(in.translate(), kFarthest_m, where + ".translate");
   return pose;
 }
 

@@ -176,6 +176,7 @@ void FrameDecoder::makeBody(const proto::ObjectDefinition& object, SceneItems& i
                 std::to_string(items.size()) + (items.size() == 1 ? " item, a call" : " items"));
   SceneItem& item = items[0];
   if (item.shape->source) throw Error(where + ".body: only what is made of triangles can be a body");
+  if (item.shape->primitives.empty()) throw Error(where + ".body: a body must have an extent, and this one has none");
   items.body = std::make_shared<const BodySpec>(decoder_.body(object.body(), where + ".body"));
   if (!item.placement) return;
   const std::shared_ptr<const Shape> shape = item.shape;

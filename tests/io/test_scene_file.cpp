@@ -738,6 +738,16 @@ TEST(SceneFile, ErrorsNameTheLine) {
   expect("\xef\xbb\xbf\xef\xbb\xbf{}", "1", "not JSON");
 }
 
+TEST(SceneFile, APlaceWhereNothingCanBeTouchedIsRefused) {
+  for (const std::string far : {"1e12", "1e300"}) {
+    for (const std::string body : {"", R"(, "body": {})"}) {
+      const std::string text =
+          R"({"objects": [{"builtin": "sphere:100", "transform": {"translate": {"y": )" + far + "}}" + body + "}]}";
+      EXPECT_EQ(afterFile(refusalOf(text)), ":1: objects[0].transform.translate.y must be between -1e+09 and 1e+09");
+    }
+  }
+}
+
 // In the words of this file's users: those of the program that reads JSON are for programmers.
 TEST(SceneFile, AValueOfAnotherKindIsReportedWithWhatToWrite) {
   const auto fault = [](const std::string& object, const std::string& more = "") {

@@ -65,6 +65,17 @@ class Refusals(Connected):
             self.touch.update_vertices(9, BOX[0] * 2)
 
 
+class Bodies(Connected):
+    def test_one_without_an_extent_is_refused(self):
+        for fixed in (False, True):
+            with self.assertRaisesRegex(hl.RefusedError, "object 6.body: .*extent"):
+                with self.touch.frame():
+                    with self.touch.define(BODY):
+                        self.touch.body("box", fixed=fixed)
+                        self.touch.draw(0 * BOX[0], *BOX[1:], mode=calls.HL_QUADS)
+                    self.touch.place(BODY)
+
+
 class Owners(Connected):
     def test_a_forked_child_leaves_the_connection_to_its_parent(self):
         child = os.fork()
