@@ -48,7 +48,9 @@ void setTurned(Convex shape, const Mat3& by, Body& body) {
 double massOf(const BodySpec& spec, double volume_m3) {
   const double mass_kg = spec.mass_kg ? *spec.mass_kg : spec.density_kg_m3 * volume_m3;
   if (!(mass_kg >= kMinMass_kg && mass_kg <= kMaxMass_kg))
-    throw Error("a body must have a mass of 1e-9 to 1e15 kg, and this one has not: set its mass");
+    throw Error(
+        "by its volume and density a body must have 1e-9 to 1e15 kg, and this one has not: set its mass, 1e-9 "
+        "to 1e9 kg");
   return mass_kg;
 }
 

@@ -1,11 +1,23 @@
 #include "client/attributes.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <string_view>
 
 #include "client/fault.h"
 
 namespace hl::client {
+
+namespace {
+
+// As hl_types.h has them.
+constexpr std::array<std::string_view, kNumbers> kQuantityNames{
+#define HL_QUANTITY(quantity, field, NAME, ...) "HL_" #NAME,
+#include "base/quantities.def"
+#undef HL_QUANTITY
+};
+
+}  // namespace
 
 std::optional<std::size_t> numberOf(HLenum quantity) {
   const auto found = std::find(kQuantityEnums.begin(), kQuantityEnums.end(), quantity);
@@ -34,11 +46,9 @@ Look lookOf(const Attributes& attributes) {
 }
 
 void requireInRange(HLenum quantity, double value) {
-  requireFinite(value);
-  if (std::abs(value) > kMaxHeight_m) throw Fault(HL_INVALID_VALUE, "the value must be at most 1e9");
-  if (quantity == HL_HEIGHT) return;
-  if (value < 0) throw Fault(HL_INVALID_VALUE, "the value must not be negative");
-  if (quantity == HL_STIFFNESS && value > 1) throw Fault(HL_INVALID_VALUE, "a surface's stiffness must be 0 .. 1");
+  const auto number = numberOf(quantity);
+  if (!number) return requireWithin("HL_HEIGHT", value, -kMaxHeight_m, kMaxHeight_m);
+  requireWithin(kQuantityNames[*number], value, 0, kQuantityInfo[*number].most);
 }
 
 void AttributeStack::push(HLbitfield mask) {

@@ -87,7 +87,8 @@ Look lookOf(const Attributes& attributes);
 /// Whether lookOf(attributes) has textures.
 bool hasTextures(const Attributes& attributes);
 
-/// The range of a quantity of hlMaterial or hlTexEnv. Throws Fault HL_INVALID_VALUE.
+/// The range of a quantity of hlMaterial or hlTexEnv: HL_HEIGHT, or one of kQuantityEnums. Throws Fault
+/// HL_INVALID_VALUE.
 void requireInRange(HLenum quantity, double value);
 
 /// Attributes with GL's attribute and name stacks.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace hl::client {
 
@@ -31,9 +32,8 @@ void requireFinite(Numbers... numbers) {
   if (!allFinite(numbers...)) throw Fault(HL_INVALID_VALUE, "numbers must be finite");
 }
 
-inline void requireWithin(double value, double least, double most) {
-  if (!(value >= least && value <= most)) throw Fault(HL_INVALID_VALUE, "the value is out of its range");
-}
+/// `what`: the number's name, for the Fault HL_INVALID_VALUE that says its range.
+void requireWithin(std::string_view what, double value, double least, double most);
 
 inline void requireCount(HLsizei n) {
   if (n < 0) throw Fault(HL_INVALID_VALUE, "a count must not be negative");

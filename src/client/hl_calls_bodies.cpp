@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "client/call.h"
@@ -25,8 +26,11 @@ namespace {
 constexpr double kMaxSpeed_m_s = 100, kMaxSpin_rad_s = 1000, kMaxGravity_m_s2 = 1000, kMaxImpulse_N_s = 1e6,
                  kFarthest_m = 1e9, kLongest_s = 10;
 
-void setWithin(hl::proto::Vec3& out, double x, double y, double z, double most) {
-  for (const double value : {x, y, z}) requireWithin(value, -most, most);
+constexpr std::string_view kVelocity = "each coordinate of the velocity", kSpin = "each coordinate of the spin",
+                           kPlace = "each coordinate of the place";
+
+void setWithin(std::string_view what, hl::proto::Vec3& out, double x, double y, double z, double most) {
+  for (const double value : {x, y, z}) requireWithin(what, value, -most, most);
   hl::client::setVec(out, x, y, z);
 }
 
@@ -45,19 +49,19 @@ void setNumber(hl::proto::Body& body, HLenum parameter, double value) {
   constexpr double kLightest_kg = 1e-9, kHeaviest_kg = 1e9, kDensest_kg_m3 = 1e6, kRoughest = 1e3;
   switch (parameter) {
     case HL_BODY_MASS:
-      requireWithin(value, kLightest_kg, kHeaviest_kg);
+      requireWithin("HL_BODY_MASS", value, kLightest_kg, kHeaviest_kg);
       return body.set_mass_kg(value);
     case HL_BODY_DENSITY:
-      requireWithin(value, 1 / kDensest_kg_m3, kDensest_kg_m3);
+      requireWithin("HL_BODY_DENSITY", value, 1 / kDensest_kg_m3, kDensest_kg_m3);
       return body.set_density_kg_m3(value);
     case HL_BODY_STATIC_FRICTION:
-      requireWithin(value, 0, kRoughest);
+      requireWithin("HL_BODY_STATIC_FRICTION", value, 0, kRoughest);
       return body.set_static_friction(value);
     case HL_BODY_DYNAMIC_FRICTION:
-      requireWithin(value, 0, kRoughest);
+      requireWithin("HL_BODY_DYNAMIC_FRICTION", value, 0, kRoughest);
       return body.set_dynamic_friction(value);
     case HL_BODY_RESTITUTION:
-      requireWithin(value, 0, 1);
+      requireWithin("HL_BODY_RESTITUTION", value, 0, 1);
       return body.set_restitution(value);
     default:
       throw Fault(HL_INVALID_ENUM,
@@ -135,15 +139,16 @@ void hlBodyi(HLenum parameter, HLint value) {
 
 void hlBody3d(HLenum parameter, HLdouble x, HLdouble y, HLdouble z) {
   setBody(__func__, [&](hl::proto::Body& body) {
-    if (parameter == HL_BODY_VELOCITY) return setWithin(*body.mutable_velocity_m_s(), x, y, z, kMaxSpeed_m_s);
-    if (parameter == HL_BODY_SPIN) return setWithin(*body.mutable_spin_rad_s(), x, y, z, kMaxSpin_rad_s);
+    if (parameter == HL_BODY_VELOCITY)
+      return setWithin(kVelocity, *body.mutable_velocity_m_s(), x, y, z, kMaxSpeed_m_s);
+    if (parameter == HL_BODY_SPIN) return setWithin(kSpin, *body.mutable_spin_rad_s(), x, y, z, kMaxSpin_rad_s);
     throw Fault(HL_INVALID_ENUM, "the parameter must be HL_BODY_VELOCITY or HL_BODY_SPIN");
   });
 }
 
 void hlGravity3d(HLdouble x, HLdouble y, HLdouble z) {
   call(__func__, When::kNotInDefinition, [&](HLcontext& context) {
-    for (const double value : {x, y, z}) requireWithin(value, -kMaxGravity_m_s2, kMaxGravity_m_s2);
+    for (const double value : {x, y, z}) requireWithin("each coordinate", value, -kMaxGravity_m_s2, kMaxGravity_m_s2);
     context.frame.gravity_m_s2 = {x, y, z};
   });
 }
@@ -152,24 +157,24 @@ void hlBodyImpulsed(HLuint object, HLdouble ix, HLdouble iy, HLdouble iz, HLdoub
                     HLdouble seconds) {
   act(__func__, object, [&](hl::proto::BodyCommand& command) {
     hl::proto::BodyPush& push = *command.mutable_push();
-    setWithin(*push.mutable_impulse_n_s(), ix, iy, iz, kMaxImpulse_N_s);
-    setWithin(*push.mutable_point(), px, py, pz, kFarthest_m);
-    requireWithin(seconds, 0, kLongest_s);
+    setWithin("each coordinate of the impulse", *push.mutable_impulse_n_s(), ix, iy, iz, kMaxImpulse_N_s);
+    setWithin(kPlace, *push.mutable_point(), px, py, pz, kFarthest_m);
+    requireWithin("the time", seconds, 0, kLongest_s);
     push.set_duration_s(seconds);
   });
 }
 
 void hlBodyVelocityd(HLuint object, HLdouble vx, HLdouble vy, HLdouble vz, HLdouble wx, HLdouble wy, HLdouble wz) {
   act(__func__, object, [&](hl::proto::BodyCommand& command) {
-    setWithin(*command.mutable_velocity()->mutable_velocity_m_s(), vx, vy, vz, kMaxSpeed_m_s);
-    setWithin(*command.mutable_velocity()->mutable_spin_rad_s(), wx, wy, wz, kMaxSpin_rad_s);
+    setWithin(kVelocity, *command.mutable_velocity()->mutable_velocity_m_s(), vx, vy, vz, kMaxSpeed_m_s);
+    setWithin(kSpin, *command.mutable_velocity()->mutable_spin_rad_s(), wx, wy, wz, kMaxSpin_rad_s);
   });
 }
 
 void hlBodyPlaced(HLuint object, HLdouble x, HLdouble y, HLdouble z, HLdouble qx, HLdouble qy, HLdouble qz,
                   HLdouble qw) {
   act(__func__, object, [&](hl::proto::BodyCommand& command) {
-    setWithin(*command.mutable_place()->mutable_position(), x, y, z, kFarthest_m);
+    setWithin(kPlace, *command.mutable_place()->mutable_position(), x, y, z, kFarthest_m);
     requireFinite(qx, qy, qz, qw);
     const double length = std::hypot(std::hypot(qx, qy), std::hypot(qz, qw));
     if (!(length > 0) || !std::isfinite(length)) throw Fault(HL_INVALID_VALUE, "the quaternion must not be 0");

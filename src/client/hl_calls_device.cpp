@@ -16,9 +16,9 @@ using hl::client::When;
 
 namespace {
 
-void requirePositive(double value) {
+void requirePositive(const char* what, double value) {
   requireFinite(value);
-  if (value <= 0) throw Fault(HL_INVALID_VALUE, "the value must be above 0");
+  if (value <= 0) throw Fault(HL_INVALID_VALUE, std::string(what) + " must be above 0");
 }
 
 void setFinite(hl::proto::Vec3& out, double x, double y, double z) {
@@ -41,7 +41,7 @@ void setDevice(const char* function, Fill fill) {
 void setProxy(const char* function, HLenum parameter, double value) {
   setDevice(function, [&](hl::proto::DeviceSettings& settings) {
     if (parameter != HL_PROXY_RADIUS) throw Fault(HL_INVALID_ENUM, "the parameter must be HL_PROXY_RADIUS");
-    requirePositive(value);
+    requirePositive("HL_PROXY_RADIUS", value);
     settings.set_proxy_radius(value);
   });
 }
@@ -81,7 +81,7 @@ void hlProxyd(HLenum parameter, HLdouble value) { setProxy(__func__, parameter, 
 
 void hlWorkspaced(HLdouble x, HLdouble y, HLdouble z, HLdouble world_per_device) {
   setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
-    requirePositive(world_per_device);
+    requirePositive("world_per_device", world_per_device);
     setFinite(*settings.mutable_workspace()->mutable_origin(), x, y, z);
     settings.mutable_workspace()->set_world_per_device(world_per_device);
   });
@@ -89,7 +89,7 @@ void hlWorkspaced(HLdouble x, HLdouble y, HLdouble z, HLdouble world_per_device)
 
 void hlSpringd(HLdouble stiffness) {
   setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
-    requirePositive(stiffness);
+    requirePositive("the stiffness", stiffness);
     settings.set_stiffness_n_m(stiffness);
   });
 }

@@ -17,13 +17,13 @@ constexpr double kMinOfField = 1e-9, kStrongest_N = 1000, kStiffest_N_m = 1e6, k
 void setStrength(HLenum kind, double strength, hl::proto::Field& field) {
   switch (kind) {
     case HL_FIELD_MAGNET:
-      hl::client::requireWithin(strength, kMinOfField, kStrongest_N);
+      hl::client::requireWithin("the strength", strength, kMinOfField, kStrongest_N);
       return field.set_force_n(strength);
     case HL_FIELD_SPRING:
-      hl::client::requireWithin(strength, kMinOfField, kStiffest_N_m);
+      hl::client::requireWithin("the strength", strength, kMinOfField, kStiffest_N_m);
       return field.set_stiffness_n_m(strength);
     case HL_FIELD_DRAG:
-      hl::client::requireWithin(strength, kMinOfField, kMaxDamping_Ns_m);
+      hl::client::requireWithin("the strength", strength, kMinOfField, kMaxDamping_Ns_m);
       return field.set_damping_ns_m(strength);
     default:
       throw Fault(HL_INVALID_ENUM, "the kind must be HL_FIELD_MAGNET, HL_FIELD_SPRING or HL_FIELD_DRAG");
@@ -31,7 +31,7 @@ void setStrength(HLenum kind, double strength, hl::proto::Field& field) {
 }
 
 hl::proto::Field fieldOf(HLenum kind, double reach) {
-  hl::client::requireWithin(reach, hl::client::kMinOfPlace, hl::client::kMaxOfPlace);
+  hl::client::requireWithin("the reach", reach, hl::client::kMinOfPlace, hl::client::kMaxOfPlace);
   hl::proto::Field field;
   field.set_kind(static_cast<hl::proto::FieldKind>(kind - HL_FIELD_MAGNET));
   field.set_reach(reach);
@@ -73,7 +73,7 @@ void hlFieldForce3d(HLdouble x, HLdouble y, HLdouble z, HLdouble reach, HLdouble
     std::vector<hl::proto::Field>& fields = hl::client::openDefinition(context).fields();
     hl::proto::Field field = fieldOf(HL_FIELD_CONSTANT, reach);
     const Eigen::Vector3d force(fx, fy, fz);
-    hl::client::requireWithin(force.stableNorm(), kMinOfField, kStrongest_N);
+    hl::client::requireWithin("the force", force.stableNorm(), kMinOfField, kStrongest_N);
     field.set_force_n(force.stableNorm());
     hl::client::addPoint(context, {x, y, z}, field);
     hl::client::setUnit(hl::client::linearOf(context), force, *field.mutable_direction());

@@ -2,6 +2,8 @@
 #include <hl/hl.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +24,8 @@ namespace {
 // As servers take them: along the coordinate m, rad, N, N m and what is made of them.
 constexpr double kMaxAlong = 1e9, kFarthestAnchor_m = 1e6;
 constexpr HLsizei kMaxRows = 256;
+constexpr std::array<std::string_view, HL_JOINT_FRICTION - HL_JOINT_LOW + 1> kNamesAlong{
+    "HL_JOINT_LOW", "HL_JOINT_HIGH", "HL_JOINT_REST", "HL_JOINT_SPRING", "HL_JOINT_DAMPING", "HL_JOINT_FRICTION"};
 
 // Lets `fill` set the joint that is made next.
 template <typename Fill>
@@ -33,7 +37,7 @@ void setAlong(hl::proto::Joint& joint, HLenum parameter, double value) {
   const bool signed_value = parameter >= HL_JOINT_LOW && parameter <= HL_JOINT_REST;
   if (parameter < HL_JOINT_LOW || parameter > HL_JOINT_FRICTION)
     throw Fault(HL_INVALID_ENUM, "the parameter must be HL_JOINT_LOW .. HL_JOINT_FRICTION");
-  requireWithin(value, signed_value ? -kMaxAlong : 0, kMaxAlong);
+  requireWithin(kNamesAlong[parameter - HL_JOINT_LOW], value, signed_value ? -kMaxAlong : 0, kMaxAlong);
   switch (parameter) {
     case HL_JOINT_LOW:
       return joint.set_low(value);
@@ -62,7 +66,7 @@ void setKind(hl::proto::Joint& joint, HLenum parameter, HLint value) {
 }
 
 hl::proto::Vec3 placeOf(const hl::Vec3& v) {
-  for (const double value : v) requireWithin(value, -kFarthestAnchor_m, kFarthestAnchor_m);
+  for (const double value : v) requireWithin("each coordinate", value, -kFarthestAnchor_m, kFarthestAnchor_m);
   hl::proto::Vec3 place;
   hl::client::setVec(place, v.x(), v.y(), v.z());
   return place;
@@ -93,8 +97,8 @@ hl::proto::ForceTable tableOf(HLsizei rows, const HLdouble* positions, const HLd
   if (rows > kMaxRows) throw Fault(HL_INVALID_VALUE, "a table has at most 256 rows");
   hl::proto::ForceTable table;
   for (HLsizei i = 0; i < rows; ++i) {
-    requireWithin(positions[i], -kMaxAlong, kMaxAlong);
-    requireWithin(forces[i], -kMaxAlong, kMaxAlong);
+    requireWithin("each position", positions[i], -kMaxAlong, kMaxAlong);
+    requireWithin("each force", forces[i], -kMaxAlong, kMaxAlong);
     if (i > 0 && !(positions[i] > positions[i - 1])) throw Fault(HL_INVALID_VALUE, "the positions must increase");
     table.add_position(positions[i]);
     table.add_force(forces[i]);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -21,6 +20,7 @@ using hl::client::ItemVertices;
 using hl::client::Numbers;
 using hl::client::requireFinite;
 using hl::client::requireList;
+using hl::client::requireWithin;
 using hl::client::VertexUpdate;
 using hl::client::When;
 
@@ -157,11 +157,9 @@ void hlCompliance(HLuint object, HLdouble normal, HLdouble tangential, const HLd
     hl::client::ObjectCompliance compliance{normal, tangential, context.conversation.contactReports().forceOf(object)};
     if (force != nullptr) std::copy_n(force, 3, compliance.computed_for_N.begin());
     const auto [x, y, z] = compliance.computed_for_N;
-    hl::client::requireFinite(normal, tangential);
-    hl::client::requireFinite(x, y, z);
-    if (normal < 0 || tangential < 0) throw Fault(HL_INVALID_VALUE, "a compliance must not be negative");
-    if (std::max({normal, tangential, std::abs(x), std::abs(y), std::abs(z)}) > hl::client::kMaxSentCompliance)
-      throw Fault(HL_INVALID_VALUE, "the numbers must be at most 1e9");
+    constexpr double kMost = hl::client::kMaxSentCompliance;
+    for (const double value : {normal, tangential}) requireWithin("each compliance", value, 0, kMost);
+    for (const double value : {x, y, z}) requireWithin("each coordinate of the force", value, -kMost, kMost);
     if (!context.objects.isDefined(object)) throw Fault(HL_INVALID_VALUE, "the object is not defined");
     context.frame.compliances[object] = compliance;
   });

@@ -10,8 +10,8 @@ using hl::client::call;
 namespace {
 
 hl::proto::Snap snapOf(double capture, double release) {
-  hl::client::requireWithin(capture, hl::client::kMinOfPlace, hl::client::kMaxOfPlace);
-  hl::client::requireWithin(release, hl::client::kMinOfPlace, hl::client::kMaxOfPlace);
+  hl::client::requireWithin("the capture", capture, hl::client::kMinOfPlace, hl::client::kMaxOfPlace);
+  hl::client::requireWithin("the release", release, hl::client::kMinOfPlace, hl::client::kMaxOfPlace);
   hl::proto::Snap snap;
   snap.set_capture(capture);
   snap.set_release_n(release);

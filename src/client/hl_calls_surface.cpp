@@ -16,7 +16,7 @@ void material(const char* function, HLenum quantity, double value) {
     const auto number = hl::client::numberOf(quantity);
     if (!number)
       throw Fault(HL_INVALID_ENUM,
-                  "the quantity must be one of HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE");
+                  "the quantity must be HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE or HL_STRENGTH");
     hl::client::requireInRange(quantity, value);
     context.draw.attributes.now.surface.quantities[*number] = value;
   });

@@ -1,6 +1,7 @@
 #include "wire/json_words.h"
 
 #include <google/protobuf/descriptor.h>
+#include <hl.pb.h>
 
 #include <algorithm>
 #include <array>
@@ -46,6 +47,37 @@ std::string needOf(const std::string& type) {
   return message == nullptr ? "cannot be here" : "must be an object: {" + membersOf(*message) + "}";
 }
 
+// The choice of this name, in a message or one within it, that has the member; null: there is none.
+const google::protobuf::OneofDescriptor* choiceIn(const google::protobuf::Descriptor& message, const std::string& name,
+                                                  const std::string& member) {
+  const auto* const choice = message.FindOneofByName(name);
+  for (int i = 0; choice != nullptr && i < choice->field_count(); ++i) {
+    if (choice->field(i)->name() == member || choice->field(i)->json_name() == member) return choice;
+  }
+  for (int i = 0; i < message.nested_type_count(); ++i) {
+    if (const auto* const found = choiceIn(*message.nested_type(i), name, member)) return found;
+  }
+  return nullptr;
+}
+
+// Of "oneof field 'source' is already set. Cannot set 'file'".
+std::string wordsOfSecond(const std::string& said) {
+  const auto quoted = [&](std::string_view before) {
+    const std::size_t at = said.find(before);
+    const std::size_t begin = at == said.npos ? said.size() : at + before.size();
+    return said.substr(begin, said.find('\'', begin) - begin);
+  };
+  const std::string name = quoted("oneof field '"), member = quoted("Cannot set '");
+  const auto& file = *proto::Scene::descriptor()->file();
+  const google::protobuf::OneofDescriptor* choice = nullptr;
+  for (int i = 0; choice == nullptr && i < file.message_type_count(); ++i)
+    choice = choiceIn(*file.message_type(i), name, member);
+  std::string members;
+  for (int i = 0; choice != nullptr && i < choice->field_count(); ++i)
+    members += (i > 0 ? ", " : "") + choice->field(i)->json_name();
+  return "\"" + member + "\" is a second one of values that exclude each other: " + members;
+}
+
 // Of the part of its message behind the place: `invalid value "X" for type type.googleapis.com/hl.proto.Shade` is
 // `"X" is none of SMOOTH, FLAT`. What is not known stays as it is.
 std::string plainJsonWords(const std::string& said) {
@@ -53,8 +85,7 @@ std::string plainJsonWords(const std::string& said) {
   if (said.starts_with("Cannot find field")) return "there is no such name";
   if (said.find("cannot start list") != said.npos) return "it must not be a list";
   if (said.find("Starting an object on a scalar field") != said.npos) return "one of its values must not be an object";
-  if (said.find("oneof field") != said.npos)
-    return "of the values that exclude each other there is another one already";
+  if (said.find("oneof field") != said.npos) return wordsOfSecond(said);
   const std::size_t type = said.rfind(kFor);
   if (!said.starts_with(kInvalid) || type == said.npos) return said;
   return said.substr(kInvalid.size(), type - kInvalid.size()) + " " + needOf(said.substr(type + kFor.size()));

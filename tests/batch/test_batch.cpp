@@ -317,8 +317,9 @@ TEST(Batch, BadInputIsRefusedWithALine) {
 
   EXPECT_EQ(hlBatchMakeImplicit(R"({"expression": {"sphere": {"radius": 1}, "box": {}}})"), nullptr);
   EXPECT_EQ(std::string(hlBatchError()),
-            "hlBatchMakeImplicit: no JSON of an implicit surface: expression: of the values that exclude each other "
-            "there is another one already");
+            "hlBatchMakeImplicit: no JSON of an implicit surface: expression: \"box\" is a second one of values that "
+            "exclude each other: sphere, box, cylinder, capsule, torus, halfSpace, gyroid, union, intersection, "
+            "difference, shell, offset");
 
   const Scene scene = load("teapot");
   HLbatchSettings settings;

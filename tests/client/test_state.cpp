@@ -296,5 +296,36 @@ TEST_F(CallsTest, QueriesConvertAsInGl) {
   EXPECT_EQ(floats[0], 0.6F);
 }
 
+// What the next error says.
+std::string textOfError() {
+  EXPECT_EQ(hlGetError(), static_cast<HLenum>(HL_INVALID_VALUE));
+  return hlGetString(HL_ERROR_STRING);
+}
+
+TEST_F(CallsTest, ANumberOutOfItsRangeIsNamedWithItsRange) {
+  hlMateriald(HL_VISCOSITY, -1);
+  EXPECT_EQ(textOfError(), "hlMateriald: HL_VISCOSITY must be 0 to 1e9, and is -1");
+  hlTexEnvd(HL_TEXTURE_ENV, HL_TEXTURE_HIGH, 2);
+  EXPECT_EQ(textOfError(), "hlTexEnvd: HL_STIFFNESS must be 0 to 1, and is 2");
+  hlJointd(HL_JOINT_SPRING, -2.5e-7);
+  EXPECT_EQ(textOfError(), "hlJointd: HL_JOINT_SPRING must be 0 to 1e9, and is -2.5e-7");
+  hlGravity3d(0, -1e10, 0);
+  EXPECT_EQ(textOfError(), "hlGravity3d: each coordinate must be -1000 to 1000, and is -1e10");
+  hlProxyd(HL_PROXY_RADIUS, 0);
+  EXPECT_EQ(textOfError(), "hlProxyd: HL_PROXY_RADIUS must be above 0");
+  hlNewObject(1);
+  hlBodyd(HL_BODY_MASS, 1e10);
+  EXPECT_EQ(textOfError(), "hlBodyd: HL_BODY_MASS must be 1e-9 to 1e9, and is 1e10");
+  hlSnapPoint3d(0, 0, 0, std::nan(""), 1);
+  EXPECT_EQ(textOfError(), "hlSnapPoint3d: the capture must be 1e-9 to 1e9, and is nan");
+  hlFieldForce3d(0, 0, 0, 1, 0, 2000, 0);
+  EXPECT_EQ(textOfError(), "hlFieldForce3d: the force must be 1e-9 to 1000, and is 2000");
+  hlEndObject();
+  hlBodyImpulsed(1, 0, 2e6, 0, 0, 0, 0, 0);
+  EXPECT_EQ(textOfError(), "hlBodyImpulsed: each coordinate of the impulse must be -1e6 to 1e6, and is 2e6");
+  hlCompliance(1, -1, 0, nullptr);
+  EXPECT_EQ(textOfError(), "hlCompliance: each compliance must be 0 to 1e9, and is -1");
+}
+
 }  // namespace
 }  // namespace hl::client::test_state

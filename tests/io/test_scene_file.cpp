@@ -758,8 +758,10 @@ TEST(SceneFile, AValueOfAnotherKindIsReportedWithWhatToWrite) {
   EXPECT_EQ(fault(R"("material": {"shade": ["FLAT"]})"), at + "material.shade: it must not be a list");
   EXPECT_EQ(fault(R"("material": {"stiffness": {}})"), at + "material: one of its values must not be an object");
   EXPECT_EQ(fault(R"("material": {"stiffness": "high"})"), at + "material.stiffness: \"high\" is not a number");
-  EXPECT_EQ(fault(R"("primitives": {})"),
-            ":1: objects[0]: of the values that exclude each other there is another one already");
+  EXPECT_EQ(
+      fault(R"("primitives": {})"),
+      ":1: objects[0]: \"primitives\" is a second one of values that exclude each other: file, builtin, primitives, "
+      "heights, volume, cloud, implicit");
   EXPECT_EQ(fault(R"("body": {"velocityMS": 3})"),
             at + R"(body.velocityMS: 3 must be an object: {"x": .., "y": .., "z": ..})");
   EXPECT_EQ(fault(R"("body": {"shape": "CONE"})"),

@@ -340,7 +340,7 @@ class Touching(unittest.TestCase):
 
     def test_errors_are_exceptions_with_one_line(self):
         wrong = [
-            (hl.InvalidValueError, "stiffness", lambda: self.touch.material(stiffness=2)),
+            (hl.InvalidValueError, "HL_STIFFNESS must be 0 to 1", lambda: self.touch.material(stiffness=2)),
             (hl.InvalidValueError, "no quantity 'softness'", lambda: self.touch.material(softness=2)),
             (hl.InvalidValueError, "below the number of vertices", lambda: self.touch.draw(FLOOR[0], [[0, 1, 4]])),
             (hl.InvalidValueError, "rows of 4, but a primitive of this mode has 3", lambda: self.touch.draw(*BLOCK)),
