@@ -20,7 +20,7 @@ VECTOR_SIZES = {"2fv": 2, "2dv": 2, "3fv": 3, "3dv": 3, "Matrixf": 16, "Matrixd"
 BY_HAND = {"hlFinish", "hlFinishTimeout", "hlPoll", "hlDrawArrays", "hlDrawElements", "hlHeightField", "hlVolume",
            "hlVolumeMatter", "hlDepthFrame", "hlNurbsSurface", "hlPointCloud", "hlPointColors",
            "hlImplicit"}
-# What Python does not need: errors are exceptions, and arrays are arguments.
+# What Python does not need: errors are exceptions, and arrays are arguments. docs/python.md names them.
 LEFT_OUT = {"hlGetError", "hlErrorFunc", "hlGetConnectError", "hlVertexPointer", "hlNormalPointer", "hlTexCoordPointer",
             "hlEnableClientState", "hlDisableClientState"}
 
@@ -72,14 +72,14 @@ def is_plain(call: Call) -> bool:
 
 
 def constants(types: str) -> list:
-    """(name, value, number of values when it is a query) of each constant."""
+    """(name, value, number of values where it has several) of each constant."""
     found = []
     for block in re.finditer(r"/\*\*((?:(?!\*/).)*)\*/\s*enum \{(.*?)\};", types, re.DOTALL):
         is_query = block.group(1).lstrip().startswith("hlGet*v")
         for name, value, comment in re.findall(r"(HL_\w+) = (\w+),?(?:[ \t]*/\*\*<((?:(?!\*/).)*)\*/)?",
                                                block.group(2), re.DOTALL):
-            count = re.match(r"\s*(\d+)\b", comment)
-            found.append((name, int(value, 0), int(count.group(1)) if is_query and count else 1))
+            count = re.match(r"\s*(\d+)\b" if is_query else r"\s*(?:hlGet\w+dv, )?(\d+);", comment)
+            found.append((name, int(value, 0), int(count.group(1)) if count else 1))
     return found
 
 

@@ -200,16 +200,34 @@ void texSubImage(HLint x, HLint y, const py::array& texels) {
   });
 }
 
+/// Of one name, no query has more.
+template <typename Number>
+using Values = std::array<Number, 16>;
+
 /// A number, or a list where the query has several.
 template <typename Number>
-py::object query(void (*call)(HLenum, Number*), HLenum name) {
-  requireContext();
-  std::array<Number, 16> values{};  // no query has more
-  call(name, values.data());
-  throwFailure();
+py::object numberOrList(const Values<Number>& values, HLenum name) {
   const std::size_t count = valuesOf(name);
   if (count == 1) return py::cast(values[0]);
   return py::cast(std::vector<Number>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count)));
+}
+
+template <typename Number>
+py::object query(void (*call)(HLenum, Number*), HLenum name) {
+  requireContext();
+  Values<Number> values{};
+  call(name, values.data());
+  throwFailure();
+  return numberOrList(values, name);
+}
+
+/// The same of a body or joint; None: the last state has no such one.
+py::object queryOf(HLboolean (*call)(HLuint, HLenum, HLdouble*), HLuint number, HLenum name) {
+  requireContext();
+  Values<HLdouble> values{};
+  const bool written = call(number, name, values.data()) != HL_FALSE;
+  throwFailure();
+  return written ? numberOrList(values, name) : py::none();
 }
 
 std::string stringOf(HLenum name) {
@@ -238,6 +256,9 @@ void bindJoints(py::module_& module) {
     requireContext();
     return structuredArray(hl::joints());
   });
+  module.def(
+      "hlGetJointdv", [](HLuint joint, HLenum name) { return queryOf(&hlGetJointdv, joint, name); }, py::arg("joint"),
+      py::arg("name"));
 }
 
 // Texts of a fixed size, as numpy has them.
@@ -325,6 +346,9 @@ void bindArrayCalls(py::module_& module) {
     requireContext();
     return structuredArray(hl::bodies());
   });
+  module.def(
+      "hlGetBodydv", [](HLuint object, HLenum name) { return queryOf(&hlGetBodydv, object, name); }, py::arg("object"),
+      py::arg("name"));
   module.def("hlTakeSamples", [] {
     requireContext();
     return structuredArray(hl::takeSamples());

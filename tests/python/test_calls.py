@@ -1,16 +1,19 @@
-"""Whose a connection is: of one process, one thread at a time, and as the server has it."""
+"""hl.calls beside hl.h, and whose a connection is: of one process, one thread at a time, and as the server has it."""
 import os
+import re
 import subprocess
 import sys
 import threading
 import time
 import unittest
+from pathlib import Path
 
 import numpy as np
 
 import hl
 from hl import calls
 
+SOURCE = Path(os.environ["HL_SOURCE"])
 BOX = (np.array([[x, y, z] for x in (-0.01, 0.01) for y in (-0.01, 0.01) for z in (-0.01, 0.01)]),
        np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]))
 BODY, HINGE = 6, 1
@@ -36,6 +39,27 @@ class Connected(unittest.TestCase):
             self.touch.place(BODY, [[1, 0, 0, 0], [0, 1, 0, 0.2], [0, 0, 1, 0], [0, 0, 0, 1]])
             self.touch.join(HINGE, BODY, kind="hinge", axis=(0, 0, 1), anchor=(0, 0.2, 0))
         self.wait_until(lambda: len(self.touch.bodies()) == 1 and len(self.touch.joints()) == 1)
+
+
+class Calls(Connected):
+    def test_every_call_of_the_header_is_there_or_named_among_those_that_are_not(self):
+        header = (SOURCE / "include/hl/hl.h").read_text(encoding="utf-8")
+        declared = set(re.findall(r"^HL_API [^;(]*?(\w+)\(", header, re.MULTILINE))
+        self.assertGreater(len(declared), 100)
+        page = (SOURCE / "docs/python.md").read_text(encoding="utf-8")
+        exceptions = page[page.index("In place of `hlCreateContext`"):page.index("No other call is missing")]
+        self.assertEqual({name for name in declared if not hasattr(calls, name)}, set(re.findall(r"`(hl\w+)`", exceptions)))
+
+    def test_what_a_body_and_a_joint_do_can_be_asked_one_by_one(self):
+        self.hang_a_body()
+        self.assertEqual(len(calls.hlGetBodydv(BODY, calls.HL_BODY_MATRIX)), 16)
+        self.assertEqual(len(calls.hlGetBodydv(BODY, calls.HL_BODY_SPIN)), 3)
+        self.assertAlmostEqual(calls.hlGetBodydv(BODY, calls.HL_BODY_POSITION)[1], 0.2)
+        self.assertAlmostEqual(calls.hlGetJointdv(HINGE, calls.HL_JOINT_COORDINATE), 0)
+        self.assertEqual(len(calls.hlGetJointdv(HINGE, calls.HL_JOINT_HOLD)), 3)
+        self.assertIsNone(calls.hlGetBodydv(9, calls.HL_BODY_POSITION))
+        self.assertIsNone(calls.hlGetJointdv(9, calls.HL_JOINT_FORCE))
+        self.assertRaises(hl.InvalidValueError, lambda: calls.hlGetBodydv(BODY, calls.HL_JOINT_HOLD))
 
 
 class Refusals(Connected):

@@ -519,17 +519,8 @@ class AServerBesideIt(unittest.TestCase):
             hl.connect("inproc:", speed=3)
 
 
-class EveryCall(unittest.TestCase):
-    # What stands in their place is in docs/python.md.
-    ELSEWHERE = {"hlCreateContext", "hlGetConnectError", "hlMakeCurrent", "hlGetCurrentContext", "hlDestroyContext",
-                 "hlGetError", "hlErrorFunc", "hlEventFunc", "hlPoll", "hlVertexPointer", "hlNormalPointer",
-                 "hlTexCoordPointer", "hlEnableClientState", "hlDisableClientState", "hlGetBodydv",
-                 "hlGetJointdv"}
-
-    def test_of_hl_h_is_there_with_its_constants(self):
-        header = (SOURCE / "include/hl/hl.h").read_text(encoding="utf-8")
-        names = set(re.findall(r"^HL_API [\w* ]*?\b(hl[A-Z]\w*)\(", header, re.MULTILINE))
-        self.assertEqual(names - set(dir(hl.calls)), self.ELSEWHERE)
+class Constants(unittest.TestCase):
+    def test_those_of_hl_types_h_are_there(self):
         types = (SOURCE / "include/hl/hl_types.h").read_text(encoding="utf-8")
         for name, value in re.findall(r"\b(HL_\w+) = (\w+)", types):
             self.assertEqual(getattr(hl.calls, name), int(value, 0), name)
