@@ -361,6 +361,30 @@ TEST(Inproc, TheFirstContextSaysWhichDeviceIsSimulated) {
   EXPECT_NE(std::string(hlGetConnectError()).find("inproc:"), std::string::npos) << hlGetConnectError();
 }
 
+TEST(Inproc, TheForceOfAContactFollowsFromItsShareAlsoWhereItYields) {
+  HLcontext* const context = hlCreateContext("inproc:?state_rate=500");
+  ASSERT_NE(context, nullptr) << hlGetConnectError();
+  hlMakeCurrent(context);
+  constexpr double kScale = 2, kCompliance_m_N = 0.002;
+  hlWorkspaced(0, 0, 0, kScale);
+  hlMateriald(HL_STIFFNESS, 0.8);
+  hlMateriald(HL_COMPLIANCE, kCompliance_m_N);
+  floorOf(1, 0);
+  ASSERT_EQ(hlFinishTimeout(60), HL_TRUE);
+  hlHandGoal3d(0, -0.02, 0);
+  HLdouble force[3] = {0, 0, 0}, spring = 0, expected = 0;
+  const bool agrees = waitFor([&] {
+    HLcontact contact;
+    if (hlGetContacts(1, &contact) != 1) return false;
+    hlGetDoublev(HL_FORCE, force);
+    hlGetDoublev(HL_SPRING_STIFFNESS, &spring);
+    expected = contact.share / (kScale / (spring * contact.stiffness) + kCompliance_m_N);
+    return force[1] > 0.3 && std::abs(force[1] - expected) < 1e-3 * expected;
+  });
+  EXPECT_TRUE(agrees) << force[1] << " N, and " << expected << " N by the share";
+  hlDestroyContext(context);
+}
+
 // 0, or the number of what is not as it is to be.
 int leaveInChild(HLcontext* context) {
   hlFlush();
