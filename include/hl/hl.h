@@ -596,7 +596,8 @@ HL_API HLsizei hlTakeContactReport(HLsizei most, HLcontactforce* contacts, HLcon
 /** From now on hlPoll calls `callback` for events of `kind` (HL_EVENT_...). NULL: such events are dropped, as at first.
  */
 HL_API void hlEventFunc(HLenum kind, HLeventfunc callback, void* user);
-/** Takes what the server has sent, calls the callbacks on this thread, oldest event first, and returns how many. Sends
+/** Takes what the server has sent, calls the callbacks on this thread, in the order in which the server noticed
+ * them, and returns how many: the time of an HL_EVENT_UNTOUCH is 20 ms before that of what is noticed beside it. Sends
  * a frame that waits. To be called as often as the application draws: of events that are not polled only the last 1024
  * are kept. HL_INVALID_OPERATION in a callback. */
 HL_API HLint hlPoll(void);

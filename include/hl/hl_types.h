@@ -163,7 +163,8 @@ enum {
 /** Kinds of events, for hlEventFunc. */
 enum {
   HL_EVENT_TOUCH = 0x48050,   /**< the proxy began to touch an object of this context */
-  HL_EVENT_UNTOUCH = 0x48051, /**< the proxy left it, and did not come back within 20 ms */
+  HL_EVENT_UNTOUCH = 0x48051, /**< the proxy left it, and did not come back within 20 ms: reported then, with the time
+                                   and place of the last touch */
   HL_EVENT_BUTTON = 0x48052,  /**< a button of the device went down or up */
   HL_EVENT_MOTION = 0x48053,  /**< in a state the finger has moved on, by 1 mm at the hand */
   HL_EVENT_SLEEP = 0x48054,   /**< a body of this context has come to rest, and is not stepped any more */

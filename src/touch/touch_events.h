@@ -1,6 +1,6 @@
 // TouchEvents: when the proxy comes to an object and when it has left it. Where a surface drops away beneath the proxy,
 // or two objects share an edge, the contact comes and goes from tick to tick: an object counts as left only when it has
-// not been touched for kLetGo_ns.
+// not been touched for kLetGo_ns. Then the event has the time and place of the last touch: when its force ended.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct TouchEvent {
   std::int64_t time_ns = 0;
   ObjectName object;
   bool touches = false;
-  Vec3 position_W = Vec3::Zero();  ///< of the proxy
+  Vec3 position_W = Vec3::Zero();  ///< of the proxy, at that time
 };
 
 /// Shorter than the gap between two taps of a finger, longer than a contact's flicker.
@@ -46,9 +46,10 @@ class TouchEvents {
   struct Felt {
     ObjectName object;
     std::int64_t last_ns;  // when it was touched
+    Vec3 position_W;       // of the proxy then
   };
   void come(std::int64_t now_ns, const ObjectName& object, const Vec3& position_W);
-  void leave(std::size_t felt, std::int64_t now_ns, const Vec3& position_W);
+  void leave(std::size_t felt);
 
   FixedVector<Felt, 8> felt_;  // more than can be touched at once: the others are about to be left
   SpscRing<TouchEvent, 1024> events_;

@@ -39,6 +39,19 @@ TEST(TouchEvents, AContactThatFlickersIsOneTouch) {
   EXPECT_EQ(reported(events), (std::vector<Reported>{{4, false}}));
 }
 
+// So that what a program counts as a touch lasts as long as its force.
+TEST(TouchEvents, TheEndOfATouchHasTheTimeAndPlaceOfTheLastOne) {
+  TouchEvents events;
+  events.follow(1, touching({4}), {1, 0, 0});
+  events.follow(kMillisecond_ns, touching({4}), {2, 0, 0});
+  for (int i = 2; i < 40; ++i) events.follow(i * kMillisecond_ns, touching({}), {3, 0, 0});
+  TouchEvent event;
+  ASSERT_TRUE(events.pop(event) && events.pop(event));
+  EXPECT_FALSE(event.touches);
+  EXPECT_EQ(event.time_ns, kMillisecond_ns);
+  EXPECT_EQ(event.position_W, Vec3(2, 0, 0));
+}
+
 TEST(TouchEvents, TwoTapsAreTwoTouches) {
   TouchEvents events;
   for (int tap = 0; tap < 2; ++tap) {
