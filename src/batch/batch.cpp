@@ -24,10 +24,8 @@ void traceBatch(const Snapshot& scene, const ProxySettings& settings, std::span<
   onThreads(threads, [&] {
     oneapi::tbb::parallel_for(std::size_t{0}, ends.size(), [&](std::size_t path) {
       const std::size_t begin = path == 0 ? 0 : ends[path - 1];
-      const std::vector<PathSample> own(samples.begin() + static_cast<std::ptrdiff_t>(begin),
-                                        samples.begin() + static_cast<std::ptrdiff_t>(ends[path]));
       std::size_t next = begin;
-      runTrace(scene, trace, own, [&](const TraceRow& row) {
+      runTrace(scene, trace, samples.subspan(begin, ends[path] - begin), [&](const TraceRow& row) {
         sink(next++, {row.proxy, row.force, row.contacts, row.injected_J});
       });
     });

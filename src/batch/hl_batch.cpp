@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -194,14 +195,18 @@ SceneModel modelOf(const GivenVolume& in, SolidSide solid) {
   return made;
 }
 
-std::vector<PathSample> samplesOf(const HLdouble* numbers, std::size_t paths, const std::size_t* ends) {
+// It takes seconds for the longest paths, in which `stop` is heard.
+std::vector<PathSample> samplesOf(const HLdouble* numbers, std::size_t paths, const std::size_t* ends,
+                                  const std::atomic<bool>* stop) {
+  require(std::is_sorted(ends, ends + paths), "ends must not fall");
   std::vector<PathSample> samples;
+  samples.reserve(paths == 0 ? 0 : ends[paths - 1]);
   std::size_t begin = 0;
   for (std::size_t path = 0; path < paths; begin = ends[path++]) {
-    require(ends[path] >= begin, "ends must not fall");
-    requireReach(numbers + 4 * begin, 4 * (ends[path] - begin), "samples must be finite, and within 1e15 m and s of 0");
     for (std::size_t i = begin; i < ends[path]; ++i) {
+      throwIfStopped(stop);
       const HLdouble* const row = numbers + 4 * i;
+      requireReach(row, 4, "samples must be finite, and within 1e15 m and s of 0");
       require(i == begin || row[0] - samples.back().t >= kMinStep_s,
               "the times of a path must rise, by 1e-15 s at least");
       samples.push_back({row[0], Vec3(row[1], row[2], row[3])});
@@ -354,12 +359,12 @@ HLenum hlBatchTrace(const HLbatchScene* scene, const HLbatchSettings* settings, 
     require(paths == 0 || (ends != nullptr && samples != nullptr), "ends or samples is NULL");
     requireThreads(threads);
     const ProxySettings rules = settingsOf(settings);
-    const std::vector<PathSample> read = samplesOf(samples, paths, ends);
-    traceBatch(*scene->snapshot, rules, read, {ends, paths}, threads,
-               [&, stop = EndsEarly::ofThisThread()](std::size_t i, const BatchRow& row) {
-                 throwIfStopped(stop);
-                 put(*result, i, row);
-               });
+    const std::atomic<bool>* const stop = EndsEarly::ofThisThread();
+    const std::vector<PathSample> read = samplesOf(samples, paths, ends, stop);
+    traceBatch(*scene->snapshot, rules, read, {ends, paths}, threads, [&](std::size_t i, const BatchRow& row) {
+      throwIfStopped(stop);
+      put(*result, i, row);
+    });
   });
 }
 

@@ -82,7 +82,7 @@ std::vector<std::string> tracedBodies(const Snapshot& snapshot) {
   return names;
 }
 
-TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, const std::vector<PathSample>& path,
+TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, std::span<const PathSample> path,
                      const std::function<void(const TraceRow&)>& row) {
   TraceTotals totals;
   if (path.empty()) return totals;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct TraceTotals {
 std::vector<std::string> tracedBodies(const Snapshot& snapshot);
 
 /// One tick per sample; the proxy starts at the first one. Calls `row` with each result in order.
-TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, const std::vector<PathSample>& path,
+TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, std::span<const PathSample> path,
                      const std::function<void(const TraceRow&)>& row);
 
 }  // namespace hl

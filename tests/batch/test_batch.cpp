@@ -265,6 +265,20 @@ TEST(Batch, ACallThatIsCancelledEndsEarlyWithAnError) {
   EXPECT_EQ(closest(1'000'000), HL_NO_ERROR) << "and with as many threads as there are";
 }
 
+// A path of millions of samples takes seconds to be read.
+TEST(Batch, ATraceThatIsCancelledDoesNotReadItsSamples) {
+  const Scene scene = load("teapot");
+  HLbatchSettings settings;
+  hlBatchSettings(&settings);
+  const std::vector<double> samples(4 * 1000, std::nan(""));
+  const std::size_t end = 1000;
+  const HLbatchResult nowhere{};
+  const std::atomic<bool> stop = true;
+  const EndsEarly ends_early(stop);
+  EXPECT_EQ(hlBatchTrace(scene.get(), &settings, 1, &end, samples.data(), 1, &nowhere), HL_INVALID_VALUE);
+  EXPECT_STREQ(hlBatchError(), "hlBatchTrace: the call was ended early");
+}
+
 TEST(Batch, AFingerBeginsAnewAfterAReset) {
   const double wall[] = {0, -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1};
   const HLuint triangles[] = {0, 1, 2, 0, 2, 3};
