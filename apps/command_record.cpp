@@ -19,7 +19,7 @@ void addRecordCommand(CLI::App& app) {
       ->group("Recording");
   command
       ->add_option("--max-size", recorder.most_bytes,
-                   "the recording ends when the file is so large; the session goes on")
+                   "the recording ends with the block that makes the file larger; the session goes on")
       ->transform(CLI::AsSizeValue(true))
       ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max() / 2))
       ->option_text("BYTES, or with kB, MB, GB (default: 4 GB)")

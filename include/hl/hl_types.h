@@ -340,7 +340,7 @@ enum {
   HL_JOINT_ANCHOR_B = 0x48129,   /**< 3; m, within 1e6: of a distance the point at body b. Default: the same. */
   HL_JOINT_AXIS = 0x4812A,       /**< 3; of any length but 0: of a hinge or slider, which need one */
   HL_JOINT_COORDINATE = 0x4812B, /**< hlGetJointdv, 1; m or rad; of a hinge with its whole turns */
-  HL_JOINT_VELOCITY = 0x4812C,   /**< hlGetJointdv, 1; m/s or rad/s */
+  HL_JOINT_VELOCITY = 0x4812C,   /**< hlGetJointdv, 1; m/s or rad/s, of the last step's chord: docs/bodies.md */
   HL_JOINT_FORCE = 0x4812D,      /**< hlGetJointdv, 1; N or N m along the coordinate: spring, damper, table, friction
                                       and limits, on body a */
   HL_JOINT_HOLD = 0x48130,       /**< hlGetJointdv, 3; N, world frame: with which it holds body a at its anchor */

@@ -372,12 +372,14 @@ class Touch:
         while it is placed as it was. The definition draws once, and places nothing.
 
         shape, by which it meets other bodies: "hull", "box", "ball", "capsule", "cylinder" or "parts", the hulls of the
-        pieces of its mesh. fixed: it moves only with frames, and pushes. parameters: mass (kg) or density (kg/m^3);
-        static_friction, dynamic_friction, restitution (0..1); velocity (m/s) and spin (rad/s) with which it starts,
-        (3,).
+        pieces of its mesh. fixed: it moves only with frames, and pushes. parameters: mass (kg) or density (kg/m^3), not
+        both; static_friction, dynamic_friction, restitution (0..1); velocity (m/s) and spin (rad/s) with which it
+        starts, (3,).
         """
         self.make_current()
         _check_names(parameters, _BODY_NUMBERS, _BODY_VECTORS, "a body")
+        if "mass" in parameters and "density" in parameters:
+            raise InvalidValueError("a body has a mass or density, not both: leave one out")
         calls.hlBodyi(calls.HL_BODY_SHAPE, _chosen(_BODY_SHAPES, shape, "shape of a body"))
         calls.hlBodyi(calls.HL_BODY_FIXED, bool(fixed))
         _set_parameters(parameters, _BODY_NUMBERS, calls.hlBodyd, _BODY_VECTORS, calls.hlBody3d)

@@ -99,6 +99,13 @@ class Bodies(Connected):
                         self.touch.draw(0 * BOX[0], *BOX[1:], mode=calls.HL_QUADS)
                     self.touch.place(BODY)
 
+    def test_a_mass_and_a_density_are_one_too_many(self):
+        with self.touch.define():
+            with self.assertRaisesRegex(hl.InvalidValueError, "mass or density"):
+                self.touch.body(mass=1, density=0.5)
+            self.touch.body(mass=1)
+            self.touch.draw(*BOX, mode=calls.HL_QUADS)
+
 
 class Owners(Connected):
     def test_a_forked_child_leaves_the_connection_to_its_parent(self):
