@@ -87,6 +87,10 @@ NumpyHeader numpyHeaderOf(std::string_view text) {
   const std::string_view sides = valueOf(text, "shape");
   if (!sides.starts_with('(')) throw Error("has no shape: a height field has two sides");
   const std::string shape = without(" L", sides.substr(1));
+  if (std::count(shape.begin(), shape.end(), ',') == 2 && !shape.ends_with(','))
+    throw Error("has shape (" + shown(shape) +
+                "), and a height field has two sides: save a volume as NRRD or NIfTI, or " +
+                "give its array to hl.Scene(volume=...)");
   double side[2] = {0, 0};
   const char *at = shape.data(), *const last = at + shape.size();
   for (double& one : side) {

@@ -53,8 +53,33 @@ struct TiffForm {
   std::uint16_t bits = 16, format = SAMPLEFORMAT_INT, compression = COMPRESSION_NONE;
   bool tiles = false, degrees = false;
   const char* missing = "-9999";
-  double scale = 20;  // to the next row
+  double scale = 20;                  // to the next row
+  std::vector<double> map{};          // tag 34264, in the place of scale and tie
+  std::vector<std::uint16_t> keys{};  // GeoTIFF's beside the first, four numbers each
+  const char* metadata = nullptr;     // GDAL's
 };
+
+std::string bytesOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void setPlace(TIFF* tiff, const TiffForm& form) {
+  const double scale[3] = {form.degrees ? 0.001 : 30, form.degrees ? 0.002 : form.scale, 0};
+  const double tie[6] = {0, 0, 0, 10, 50, 0};
+  std::vector<std::uint16_t> keys{1,    1, 0, static_cast<std::uint16_t>(1 + form.keys.size() / 4),
+                                  1024, 0, 1, static_cast<std::uint16_t>(form.degrees ? 2 : 1)};
+  keys.insert(keys.end(), form.keys.begin(), form.keys.end());
+  if (form.map.empty()) {
+    TIFFSetField(tiff, 33550, 3, scale);
+    TIFFSetField(tiff, 33922, 6, tie);
+  } else {
+    TIFFSetField(tiff, 34264, 16, form.map.data());
+  }
+  TIFFSetField(tiff, 34735, static_cast<int>(keys.size()), keys.data());
+  TIFFSetField(tiff, 42113, form.missing);
+  if (form.metadata != nullptr) TIFFSetField(tiff, 42112, form.metadata);
+}
 
 template <typename Sample>
 std::string tiffWith(const std::string& name, const TiffForm& form, std::uint32_t columns, std::uint32_t rows) {
@@ -62,9 +87,11 @@ std::string tiffWith(const std::string& name, const TiffForm& form, std::uint32_
   static const TIFFFieldInfo kTags[] = {{33550, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, const_cast<char*>("scale")},
                                         {33922, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, const_cast<char*>("tie")},
                                         {34735, -1, -1, TIFF_SHORT, FIELD_CUSTOM, 1, 1, const_cast<char*>("keys")},
+                                        {34264, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, const_cast<char*>("map")},
+                                        {42112, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, const_cast<char*>("metadata")},
                                         {42113, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, const_cast<char*>("missing")}};
   TIFF* const tiff = TIFFOpen(path.c_str(), "w");
-  TIFFMergeFieldInfo(tiff, kTags, 4);
+  TIFFMergeFieldInfo(tiff, kTags, 6);
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, columns);
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, rows);
   TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, form.bits);
@@ -72,13 +99,7 @@ std::string tiffWith(const std::string& name, const TiffForm& form, std::uint32_
   TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
   TIFFSetField(tiff, TIFFTAG_COMPRESSION, form.compression);
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  const double scale[3] = {form.degrees ? 0.001 : 30, form.degrees ? 0.002 : form.scale, 0};
-  const double tie[6] = {0, 0, 0, 10, 50, 0};
-  const std::uint16_t keys[8] = {1, 1, 0, 1, 1024, 0, 1, static_cast<std::uint16_t>(form.degrees ? 2 : 1)};
-  TIFFSetField(tiff, 33550, 3, scale);
-  TIFFSetField(tiff, 33922, 6, tie);
-  TIFFSetField(tiff, 34735, 8, keys);
-  TIFFSetField(tiff, 42113, form.missing);
+  setPlace(tiff, form);
   if (form.tiles) {
     TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 16);
     TIFFSetField(tiff, TIFFTAG_TILELENGTH, 16);
@@ -179,17 +200,117 @@ TEST(ReadHeights, WhatATiffSaysWronglyIsReported) {
   form.missing = "hello";
   EXPECT_EQ(warningsOf(form), std::vector<std::string>{"its value for missing samples, 'hello', is no number: none "
                                                        "counts as missing"});
-  form.missing = "-9999";
-  form.scale = -20;
-  EXPECT_EQ(warningsOf(form), std::vector<std::string>{"its columns lead east and its rows north in its map: they are "
-                                                       "taken to lead east and south"});
+}
+
+// Whatever its tags lose, a file that is cut must not be one without them: its missing samples would be pits.
+TEST(ReadHeights, ATiffThatEndsBeforeItsTagsSaysSo) {
+  TiffForm form;
+  form.missing = "-9999.000";
+  form.metadata = "<GDALMetadata><Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.1</Item></GDALMetadata>";
+  const std::string tiff = bytesOf(tiffWith<std::int16_t>("whole.tif", form, 20, 20));
+  std::uint32_t directory = 0;
+  std::memcpy(&directory, tiff.data() + 4, sizeof directory);
+  ASSERT_GT(directory, 800U);  // the samples lie before it
+  for (std::size_t lost = 1; directory + lost <= tiff.size(); lost += lost < 60 ? 1 : 7) {
+    const std::string refusal = refusalOf(fileWith("cut.tif", tiff.substr(0, tiff.size() - lost)));
+    EXPECT_NE(refusal.find("cut.tif: is "), std::string::npos) << lost << " " << refusal;
+    EXPECT_EQ(refusal.find('\n'), std::string::npos);
+  }
+}
+
+TEST(ReadHeights, ATagOfAnotherTypeIsRefused) {
+  std::string tiff = bytesOf(tiffWith<std::int16_t>("typed.tif", {}, 20, 20));
+  const std::uint16_t entry[2] = {33550, TIFF_DOUBLE}, other[2] = {33550, TIFF_SLONG8};
+  const std::size_t at = tiff.find({reinterpret_cast<const char*>(entry), sizeof entry});
+  ASSERT_NE(at, std::string::npos);
+  std::memcpy(tiff.data() + at, other, sizeof other);
+  const std::string refusal = refusalOf(fileWith("other.tif", tiff));
+  EXPECT_NE(refusal.find("its tag 33550"), std::string::npos) << refusal;
+}
+
+TEST(ReadHeights, UnitsOfATiffBecomeMetres) {
+  const auto sceneOf = [](const TiffForm& form) {
+    return loadModelScene(tiffWith<std::int16_t>("u.tif", form, 30, 20));
+  };
+  const auto axesOf = [](const SceneModel& scene) {
+    return dynamic_cast<const HeightField&>(*scene.surfaces.at(0).source).frame().axes;
+  };
+  TiffForm form;
+  form.keys = {3076, 0, 1, 9003, 4099, 0, 1, 9002};
+  SceneModel scene = sceneOf(form);
+  EXPECT_NEAR(axesOf(scene)(0, 0), 30 * 1200.0 / 3937, 1e-12);
+  EXPECT_NEAR(axesOf(scene)(2, 1), 20 * 1200.0 / 3937, 1e-12);
+  EXPECT_NEAR(axesOf(scene)(1, 2), 0.3048, 1e-15);
+  EXPECT_TRUE(scene.model.warnings.empty());
+  form.keys = {3076, 0, 1, 9002};
+  scene = sceneOf(form);
+  EXPECT_NEAR(axesOf(scene)(0, 0), 30 * 0.3048, 1e-12);
+  EXPECT_EQ(axesOf(scene)(1, 2), 1);
+  ASSERT_EQ(scene.model.warnings.size(), 1U);
+  EXPECT_NE(scene.model.warnings[0].find("no unit of its heights"), std::string::npos);
+  form.keys = {3076, 0, 1, 9036, 4099, 0, 1, 9001};
+  scene = sceneOf(form);
+  EXPECT_EQ(axesOf(scene)(0, 0), 30);
+  ASSERT_EQ(scene.model.warnings.size(), 1U);
+  EXPECT_NE(scene.model.warnings[0].find("the unit 9036"), std::string::npos);
+  form.keys = {3076, 0, 1, 9001, 4099, 0, 1, 9001};
+  EXPECT_TRUE(sceneOf(form).model.warnings.empty());
+}
+
+TEST(ReadHeights, ScaleAndOffsetOfGdalAreApplied) {
+  TiffForm form;
+  form.keys = {3076, 0, 1, 9001, 4099, 0, 1, 9002};
+  form.metadata =
+      "<GDALMetadata><Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.1</Item>"
+      "<Item name=\"OFFSET\" sample=\"0\" role=\"offset\">100</Item>"
+      "<Item name=\"OFFSET\" sample=\"1\" role=\"offset\">7</Item><Item name=\"UNIT\">x</Item></GDALMetadata>";
+  const auto field = fieldIn(tiffWith<std::int16_t>("s.tif", form, 30, 20));
+  EXPECT_NEAR(field->frame().axes(1, 2), 0.03048, 1e-15);
+  EXPECT_NEAR(field->frame().point(3, 1, valueAt(3, 1)).y(), 0.3048 * (100 + 0.1 * valueAt(3, 1)), 1e-12);
+  EXPECT_EQ(field->grid().missing(), -9999);
+  form.metadata = "<GDALMetadata><Item role=\"scale\">-1</Item></GDALMetadata>";
+  EXPECT_NE(refusalOf(tiffWith<std::int16_t>("s.tif", form, 30, 20)).find("has '-1' for the scale"), std::string::npos);
+  form.metadata = "<GDALMetadata";
+  const auto warnings = loadModelScene(tiffWith<std::int16_t>("s.tif", form, 30, 20)).model.warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("42112 is no XML"), std::string::npos);
+}
+
+// The same map, with its rows or columns in another order in the file: each sample lies where it lay, and the outside
+// is above.
+TEST(ReadHeights, RowsNorthAndColumnsWestLieWhereTheyAre) {
+  const std::uint32_t columns = 30, rows = 20;
+  for (const bool west : {false, true}) {
+    for (const bool north : {false, true}) {
+      TiffForm form;
+      form.map = {west ? -30.0 : 30, 0, 0, 10, 0, north ? 20.0 : -20, 0, 50, 0, 0, 0, 0, 0, 0, 0, 1};
+      const SceneModel scene = loadModelScene(tiffWith<std::int16_t>("m.tif", form, columns, rows));
+      EXPECT_TRUE(scene.model.warnings.empty());
+      const auto& field = dynamic_cast<const HeightField&>(*scene.surfaces.at(0).source);
+      for (const std::uint32_t i : {0U, 7U, columns - 1}) {
+        for (const std::uint32_t j : {0U, 4U, rows - 1}) {
+          const Vec3 wanted((west ? -30.0 : 30) * (i - 0.5 * (columns - 1)), valueAt(i, j),
+                            (north ? -20.0 : 20) * (j - 0.5 * (rows - 1)));
+          EXPECT_NEAR((field.frame().point(i, j, field.grid().at(i, j)) - wanted).norm(), 0, 1e-9);
+        }
+      }
+      const auto [a, b, c] = field.corners(0);
+      EXPECT_GT((b - a).cross(c - a).y(), 0);
+      EXPECT_EQ(field.siteOf(Vec3(1, 1e6, 1)), Site::kOpen);
+    }
+  }
+  TiffForm form;
+  form.scale = -20;  // the specification's way to say that rows lead north, which GDAL does not follow
+  const SceneModel scene = loadModelScene(tiffWith<std::int16_t>("m.tif", form, columns, rows));
+  EXPECT_EQ(dynamic_cast<const HeightField&>(*scene.surfaces.at(0).source).frame().axes(2, 1), -20);
+  ASSERT_EQ(scene.model.warnings.size(), 1U);
+  EXPECT_NE(scene.model.warnings[0].find("GDAL takes them to lead south"), std::string::npos);
 }
 
 // The samples that lack are those of the last strip: its place in the file is that of the end.
 TEST(ReadHeights, ACutTiffSaysSo) {
   const std::string path = tiffWith<std::int16_t>("whole.tif", {}, 20, 20);
-  std::ifstream in(path, std::ios::binary);
-  std::string tiff{std::istreambuf_iterator<char>(in), {}};
+  std::string tiff = bytesOf(path);
   std::uint32_t place = 8 + 3 * 5 * 20 * 2;  // three strips of five rows lie before it
   const std::string wanted(reinterpret_cast<const char*>(&place), sizeof place);
   const std::size_t at = tiff.rfind(wanted);
@@ -313,6 +434,12 @@ TEST(ReadHeights, NumpyArrays) {
   EXPECT_EQ(turned->bounds().size().x(), 6);
   EXPECT_NE(refusalOf(fileWith("b.npy", numpyWith<float>("<c8", false, 7, 5))).find("'<c8'"), std::string::npos);
   EXPECT_NE(refusalOf(fileWith("c.npy", "\x93NUMPY")).find("ends before"), std::string::npos);
+  std::string volume = numpyWith<float>("<f4", false, 7, 5);
+  volume.replace(volume.find("(5, 7)"), 6, "(3,5,7)").erase(volume.find(' '), 1);
+  EXPECT_NE(refusalOf(fileWith("e.npy", volume))
+                .find("has shape (3,5,7), and a height field has two sides: save a "
+                      "volume as NRRD or NIfTI"),
+            std::string::npos);
   const std::string good = numpyWith<float>("<f4", false, 7, 5);
   EXPECT_NE(refusalOf(fileWith("d.npy", good.substr(0, good.size() - 1))).find("ends before"), std::string::npos);
 }
@@ -322,9 +449,7 @@ TEST(ReadHeights, CorruptFilesGiveOneLine) {
   std::mt19937 random(1);
   TiffForm form;
   form.compression = COMPRESSION_LZW;
-  const std::string tiff_path = tiffWith<std::int16_t>("x.tif", form, 20, 20);
-  std::ifstream in(tiff_path, std::ios::binary);
-  const std::string tiff{std::istreambuf_iterator<char>(in), {}};
+  const std::string tiff = bytesOf(tiffWith<std::int16_t>("x.tif", form, 20, 20));
   const std::pair<const char*, std::string> files[] = {{"y.tif", tiff},
                                                        {"N01E001.hgt", bigEndian(5)},
                                                        {"y.asc", "ncols 3\nnrows 2\ncellsize 1\n1 2 3 4 5 6\n"},
