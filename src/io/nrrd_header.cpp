@@ -47,6 +47,12 @@ std::vector<double> numbersIn(std::string_view text) {
   return numbers;
 }
 
+std::vector<std::string> wordsIn(std::string_view text) {
+  std::vector<std::string> words;
+  for (const std::string_view word : piecesOf(text, " \t")) words.emplace_back(word);
+  return words;
+}
+
 // "(1,0,0) (0,1,0) none (0,0,2.5)"
 std::vector<std::optional<Vec3>> vectorsIn(std::string_view text) {
   std::vector<std::optional<Vec3>> vectors;
@@ -114,9 +120,10 @@ class NrrdFields {
     if (field == "data file" || field == "datafile") header_.data_file = value;
     if (field == "line skip" || field == "lineskip") header_.line_skip = numberIn(value);
     if (field == "byte skip" || field == "byteskip") header_.byte_skip = numberIn(value);
-    if (field == "kinds") {
-      for (const std::string_view kind : piecesOf(low, " \t")) header_.kinds.emplace_back(kind);
-    }
+    if (field == "axis mins" || field == "axismins") header_.axis_mins = numbersIn(low);
+    if (field == "axis maxs" || field == "axismaxs") header_.axis_maxs = numbersIn(low);
+    if (field == "centerings" || field == "centers") header_.centerings = wordsIn(low);
+    if (field == "kinds") header_.kinds = wordsIn(low);
   }
   NrrdHeader whole() const {
     const std::size_t axes = header_.sizes.size();
@@ -128,6 +135,9 @@ class NrrdFields {
     if (!fits(header_.directions.size())) failNrrd("it has not one space direction for each axis");
     if (!fits(header_.spacings.size())) failNrrd("it has not one spacing for each axis");
     if (!fits(header_.kinds.size())) failNrrd("it has not one kind for each axis");
+    if (!fits(header_.axis_mins.size()) || !fits(header_.axis_maxs.size()))
+      failNrrd("it has not one axis min and max for each axis");
+    if (!fits(header_.centerings.size())) failNrrd("it has not one centering for each axis");
     return header_;
   }
 

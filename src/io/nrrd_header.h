@@ -21,10 +21,12 @@ struct NrrdHeader {
   std::vector<std::string> kinds;  ///< of every axis, or empty
   std::string space;               ///< empty: the file names none
   std::vector<std::optional<Vec3>>
-      directions;                ///< of every axis, in units of the file, or empty; none: no axis of space
-  std::vector<double> spacings;  ///< of every axis, in units of the file, or empty
-  std::string unit;              ///< of the first axis; empty: the file names none
-  std::string data_file;         ///< empty: the samples follow the header
+      directions;                            ///< of every axis, in units of the file, or empty; none: no axis of space
+  std::vector<double> spacings;              ///< of every axis, in units of the file, or empty; not a number: not known
+  std::vector<double> axis_mins, axis_maxs;  ///< as spacings
+  std::vector<std::string> centerings;       ///< of every axis, or empty
+  std::string unit;                          ///< of the first axis; empty: the file names none
+  std::string data_file;                     ///< empty: the samples follow the header
   double line_skip = 0, byte_skip = 0;
 };
 

@@ -41,6 +41,9 @@ void dropAxesOfOne(NrrdHeader& header) {
     drop(header.kinds, axis);
     drop(header.directions, axis);
     drop(header.spacings, axis);
+    drop(header.axis_mins, axis);
+    drop(header.axis_maxs, axis);
+    drop(header.centerings, axis);
   }
 }
 
@@ -96,16 +99,33 @@ void warnOfSpace(const std::string& space, VolumeSink& sink) {
     sink.warn(fmt::format("has a space '{}', which is not known: x, y and z are taken as they are", shown(space)));
 }
 
+// Backward along an axis where it is below 0, as a spacing may be, and a min above the max. Nothing: the file does not
+// say. Samples are the middles of cells, and min and max the outer sides of these, unless they are said to be nodes.
+std::optional<double> nrrdSpacingOf(const NrrdHeader& header, std::size_t axis) {
+  const bool sided = !header.axis_mins.empty() && !header.axis_maxs.empty();
+  if (!header.spacings.empty() && !(sided && std::isnan(header.spacings[axis]))) return header.spacings[axis];
+  if (!sided) return {};
+  const double length = header.axis_maxs[axis] - header.axis_mins[axis];
+  if (std::isnan(length)) return {};
+  const bool nodes = !header.centerings.empty() && header.centerings[axis] == "node";
+  return length / (nodes ? header.sizes[axis] - 1 : header.sizes[axis]);
+}
+
 // In units of the file, in its space.
 Mat3 stepsOf(const NrrdHeader& header, VolumeSink& sink) {
   Mat3 steps = Mat3::Identity();
+  bool known = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto column = static_cast<Eigen::Index>(axis);
-    if (!header.directions.empty()) steps.col(column) = *header.directions[axis];
-    if (header.directions.empty() && !header.spacings.empty()) steps(column, column) = std::abs(header.spacings[axis]);
+    if (!header.directions.empty()) {
+      steps.col(column) = *header.directions[axis];
+    } else if (const std::optional<double> spacing = nrrdSpacingOf(header, axis)) {
+      steps(column, column) = *spacing;
+    } else {
+      known = false;
+    }
   }
-  if (header.directions.empty() && header.spacings.empty())
-    sink.warn("says nothing of the distance between its samples: 1");
+  if (!known) sink.warn("says nothing of the distance between its samples: 1");
   return steps;
 }
 

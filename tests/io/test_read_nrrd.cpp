@@ -107,6 +107,36 @@ TEST(ReadNrrd, SpacesThatAreNoPatients) {
   EXPECT_EQ(bare.header().frame.axes(2, 2), 1e-3);
 }
 
+// A min and a max are of the outer samples where these are nodes, else of the outer sides of cells.
+TEST(ReadNrrd, SpacingsFollowFromMinsAndMaxs) {
+  const std::string units = "units: \"m\" \"m\" \"m\"\n", sides = "axis mins: 1 -2 3\naxis maxs: 5 2 0\n";
+  const auto stepsOf = [&](const std::string& fields) {
+    const VolumeTaker volume = taken(fileOf(units + fields));
+    EXPECT_TRUE(volume.warnings().empty()) << fields;
+    return Vec3(volume.header().frame.axes.diagonal());
+  };
+  EXPECT_EQ(stepsOf(sides + "centerings: node node node\n"), Vec3(1, 4.0 / 3, -1.5));
+  EXPECT_EQ(stepsOf(sides + "centers: cell cell cell\n"), Vec3(0.8, 1, -1));
+  EXPECT_EQ(stepsOf(sides + "centerings: cell node ???\n"), Vec3(0.8, 4.0 / 3, -1));
+  EXPECT_EQ(stepsOf(sides), Vec3(0.8, 1, -1));
+  EXPECT_EQ(stepsOf(sides + "spacings: nan 7 nan\n"), Vec3(0.8, 7, -1));
+  EXPECT_EQ(taken(fileOf(units + "axis mins: 1 nan 3\naxis maxs: 5 2 0\n")).warnings(),
+            std::vector<std::string>{"says nothing of the distance between its samples: 1"});
+  EXPECT_EQ(refusal(fileOf("axis mins: 1 2\n")),
+            "is not a sound NRRD file: it has not one axis min and max for each axis");
+  EXPECT_EQ(refusal(fileOf("centerings: node\n")), "is not a sound NRRD file: it has not one centering for each axis");
+  EXPECT_EQ(refusal(fileOf("axis mins: 1 1 1\naxis maxs: 1 2 2\n")),
+            "says no distances and directions between its samples that could be");
+}
+
+// The samples of an axis may go backward: each lies where the spacing says.
+TEST(ReadNrrd, ASpacingBelowZeroLeadsBackward) {
+  const VolumeTaker volume = taken(fileOf("spacings: -1 1 2\nunits: \"m\" \"m\" \"m\"\n"));
+  EXPECT_EQ(volume.header().frame.axes.diagonal(), Vec3(-1, 1, 2));
+  EXPECT_EQ(volume.header().frame.origin, Vec3(2, -1.5, -2));
+  expectSamples(volume);
+}
+
 TEST(ReadNrrd, ASpaceThatIsNotKnownIsAWarning) {
   const std::string units = "space units: \"mm\" \"mm\" \"mm\"\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n";
   EXPECT_EQ(taken(fileOf("space: left-handed-martian\n" + units)).warnings(),
