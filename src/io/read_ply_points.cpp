@@ -21,11 +21,17 @@ namespace {
 
 constexpr const char* kNoPly = "is no sound PLY file: ";
 
+// Where a list lies in an element of a binary file.
+struct PlyList {
+  std::size_t before = 0;     // bytes of numbers since the last list
+  ScalarKind length, number;  // kinds of its length and of what is in it
+};
+
 struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
-  PointRecord record, columns;  // of binary files and of text
-  bool lists = false;
+  PointRecord record{}, columns{};  // of binary files and of text; without lists
+  std::vector<PlyList> lists{};
 };
 
 struct PlyPoints {
@@ -56,11 +62,13 @@ ScalarKind plyKind(const std::string& name) {
   throw Error(std::string(kNoPly) + "it has numbers of type '" + shown(name) + "'");
 }
 
+void addList(PlyElement& element, const std::string& length, const std::string& number) {
+  std::size_t before = element.record.bytes;
+  for (const PlyList& list : element.lists) before -= list.before;
+  element.lists.push_back({before, plyKind(length), plyKind(number)});
+}
+
 void addProperty(PlyElement& element, const std::string& type, const std::string& name) {
-  if (type == "list") {
-    element.lists = true;
-    return;
-  }
   const ScalarKind form = plyKind(type);
   if (const auto number = pointNumberOf(name)) {
     element.record.fields[*number] = {element.record.bytes, form};
@@ -89,9 +97,13 @@ PlyPoints readPlyHeader(ByteFile& in) {
     text >> key >> first >> second;
     if (key == "end_header") return ply;
     if (key == "format") ply.format = first;
-    if (key == "element") ply.elements.push_back({first, plyCount(second), {}, {}, false});
+    if (key == "element") ply.elements.push_back({first, plyCount(second)});
     if (key == "property" && ply.elements.empty()) throw Error(std::string(kNoPly) + "a property has no element");
-    if (key == "property") addProperty(ply.elements.back(), first, second);
+    if (key != "property") continue;
+    if (std::string number; first == "list" && text >> number)
+      addList(ply.elements.back(), second, number);
+    else
+      addProperty(ply.elements.back(), first, second);
   }
   throw Error(std::string(kNoPly) + "its header has no line end_header");
 }
@@ -110,7 +122,7 @@ PlyOfPoints pointsOfPly(const std::string& path) {
       if (joins && element.count > 0) return {};
       if (element.name != "vertex" || element.count == 0) continue;
       ply.points = true;
-      ply.lists = ply.lists || element.lists;
+      ply.lists = ply.lists || !element.lists.empty();
     }
     return ply;
   } catch (const Error&) {
@@ -130,6 +142,41 @@ bool isPlyOfListedPoints(const std::string& path) {
   return ply.points && ply.lists;
 }
 
+// Throws if there is less.
+void skipMany(ByteFile& in, std::uint64_t count, std::size_t bytes) {
+  if (bytes > 0 && count > std::numeric_limits<std::uint64_t>::max() / bytes) throw Error(kEndsEarly);
+  in.skip(count * bytes);
+}
+
+// One element with its lists, of a binary file.
+void skipElement(ByteFile& in, const PlyElement& element, bool swap) {
+  std::size_t rest = element.record.bytes;
+  for (const PlyList& list : element.lists) {
+    std::array<char, sizeof(double)> length{};
+    in.skip(list.before);
+    in.read(length.data(), sizeOf(list.length));
+    const double count = numberAt(length.data(), {0, list.length}, swap);
+    constexpr double kMost = 1e15;
+    if (!(count >= 0 && count <= kMost)) throw Error(fmt::format("{}it has a list of {:g} numbers", kNoPly, count));
+    skipMany(in, static_cast<std::uint64_t>(count), sizeOf(list.number));
+    rest -= list.before;
+  }
+  in.skip(rest);
+}
+
+// In text an element is a line.
+void skipElements(ByteFile& in, const PlyElement& element, const std::string& format) {
+  if (format != "ascii" && element.lists.empty()) return skipMany(in, element.count, element.record.bytes);
+  std::string line;
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    if (format != "ascii") {
+      skipElement(in, element, format == "binary_big_endian");
+    } else if (!in.line(line)) {
+      throw Error(kEndsEarly);
+    }
+  }
+}
+
 // What comes before the vertices is passed over.
 void readPlyPoints(const ModelFile& file, CloudSink& sink) {
   ByteFile in(file.path);
@@ -139,15 +186,7 @@ void readPlyPoints(const ModelFile& file, CloudSink& sink) {
     throw Error(std::string(kNoPly) + "its format is '" + shown(ply.format) + "'");
   for (PlyElement& element : ply.elements) {
     if (element.name != "vertex") {
-      if (element.lists && element.count > 0) throw Error("has lists before its vertices, which are not understood");
-      std::string line;
-      for (std::uint64_t i = 0; text && i < element.count; ++i) {
-        if (!in.line(line)) throw Error(kEndsEarly);
-      }
-      if (!text && element.count > 0 && element.record.bytes > 0) {
-        if (element.count > std::numeric_limits<std::uint64_t>::max() / element.record.bytes) throw Error(kEndsEarly);
-        in.skip(element.count * element.record.bytes);
-      }
+      skipElements(in, element, ply.format);
       continue;
     }
     element.record.requireCoordinates();

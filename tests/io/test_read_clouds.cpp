@@ -140,6 +140,36 @@ TEST(ReadClouds, PlyHasColours) {
   EXPECT_EQ(taken("a.ply", colouredPly("float", wild)).colours[0], (Rgb{255, 0, 0}));
 }
 
+// An element before the vertices, of two numbers with a list after each: of no number, and of some.
+std::string listsBefore(const std::string& format, bool swap, std::uint8_t length) {
+  std::string ply = plyHeader(format, false);
+  ply.insert(ply.find("element vertex"),
+             "element view 2\nproperty short a\nproperty list uchar double b\nproperty int c\n"
+             "property list ushort short d\n");
+  for (int i = 0; i < 2; ++i) {
+    if (format == "ascii") {
+      ply += "1 0 2 3 7 8 9\n";
+      continue;
+    }
+    ply += bytesOf(std::int16_t{1}, swap) + std::string(1, static_cast<char>(length));
+    for (std::uint8_t n = 0; n < length; ++n) ply += bytesOf(1.0, swap);
+    ply += bytesOf(std::int32_t{2}, swap) + bytesOf(std::uint16_t{3}, swap);
+    for (std::int16_t n = 0; n < 3; ++n) ply += bytesOf(n, swap);
+  }
+  return ply;
+}
+
+TEST(ReadClouds, PlyMayHaveListsBeforeItsVertices) {
+  for (const std::uint8_t length : {0, 1, 200}) {
+    expectPoints(taken("a.ply", listsBefore("binary_little_endian", false, length) + records(false, false)), false);
+    expectPoints(taken("a.ply", listsBefore("binary_big_endian", true, length) + records(true, false)), false);
+  }
+  expectPoints(taken("a.ply", listsBefore("ascii", false, 0) + "7 1 2 3 9\n7 -4 5.5 6 9\r\n7 .25 -8 9 9\n"), false);
+  const std::string whole = listsBefore("binary_little_endian", false, 3);
+  for (std::size_t lost = 1; lost < 40; ++lost)
+    EXPECT_EQ(refusal("a.ply", whole.substr(0, whole.size() - lost)), "ends before its last sample");
+}
+
 TEST(ReadClouds, BrokenPlyIsRefused) {
   const std::string whole = plyHeader("binary_little_endian", true) + records(false, true);
   EXPECT_EQ(refusal("a.ply", whole.substr(0, whole.size() - 1)), "ends before its last sample");
