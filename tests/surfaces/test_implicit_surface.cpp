@@ -108,7 +108,7 @@ TEST(SheetSides, WhatIsKnownOfABoxChangesNoCutInIt) {
   test::Random random(8);
   int cut = 0, saved = 0;
   std::unique_ptr<const SheetList> solid;
-  for (int i = 0; i < 3000 * test::longer(); ++i) {
+  for (int i = 0; i < 600 * test::longer(); ++i) {
     if (i % 100 == 0) solid = std::make_unique<SheetList>(ImplicitSpec{machined(random), test::cube(0.012), 1e-3});
     const SheetList& list = *solid;
     const Sheet& sheet = list.sheets[static_cast<std::size_t>(random.below(static_cast<int>(list.sheets.size())))];
@@ -204,6 +204,82 @@ TEST(ImplicitSurface, TrianglesAreWithinTheStatedError) {
     }
   }
   EXPECT_GT(surfaces, 3);
+}
+
+Vec3 ontoZero(const SmoothFunction& smooth, const Vec3& p) {
+  const Vec3 gradient = smooth.gradient(p);
+  return p - smooth.at(p) / std::max(gradient.squaredNorm(), 1e-6) * gradient;
+}
+
+double distanceFrom(const ImplicitFunction& function, const Vec3& p) {
+  constexpr double kStep_m = 1e-8;
+  Vec3 gradient;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Vec3 step = kStep_m * Vec3::Unit(axis);
+    gradient[axis] = (function.at(p + step) - function.at(p - step)) / (2 * kStep_m);
+  }
+  return std::abs(function.at(p)) / gradient.norm();
+}
+
+/// How far what is left of the triangles around a place is from the surface.
+double worstAround(const SheetList& list, const Sheet& sheet, const Vec3& p) {
+  const Vec3 place = (p - sheet.grid().origin) / sheet.grid().step;
+  double worst = 0;
+  for (int n = 0; n < 27; ++n) {
+    const Vec3 at = place + Vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+    const auto& cells = sheet.grid().cells;
+    if (!(at.array() >= 0).all() || !(at.array() < Vec3(cells[0], cells[1], cells[2]).array()).all()) continue;
+    const IsoCell cell = sheet.cellAt(
+        {static_cast<std::uint32_t>(at.x()), static_cast<std::uint32_t>(at.y()), static_cast<std::uint32_t>(at.z())});
+    for (unsigned triangle = 0; cell.triangles != nullptr && triangle < cell.triangles->count; ++triangle) {
+      SheetPieces pieces;
+      sheet.pieces(sheet.corners(cell, triangle), pieces);
+      for (std::size_t i = 0; i < pieces.count; ++i) {
+        for (const Vec3& corner : pieces.triangles[i]) worst = std::max(worst, distanceFrom(list.function, corner));
+      }
+    }
+  }
+  return worst;
+}
+
+/// At the edges between two sheets, as a multiple of the stated error.
+double worstAtEdges(const SheetList& list, test::Random& random) {
+  double worst = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Sheet& sheet = list.sheets[static_cast<std::size_t>(random.below(static_cast<int>(list.sheets.size())))];
+    const auto& functions = list.function.sheets();
+    const SmoothFunction& other = functions[static_cast<std::size_t>(random.below(static_cast<int>(functions.size())))];
+    Vec3 p = list.bounds.centre() + random.inCube(0.5).cwiseProduct(list.bounds.size());
+    for (int step = 0; step < 12; ++step) p = ontoZero(step % 2 == 0 ? other : sheet.smooth(), p);
+    worst = std::max(worst, worstAround(list, sheet, p));
+  }
+  return worst / list.error_m;
+}
+
+// Where a blend is less steep than a distance, a value stands for a longer way.
+TEST(ImplicitSurface, SharpEdgesAreWithinTheStatedError) {
+  test::Random random(21);
+  const Expression block = test::box(Vec3(0.046, 0.057, 0.038)),
+                   dent = test::sphere(0.009, Vec3(0.0135, 0.0164, 0.013));
+  EXPECT_LE(worstAtEdges(SheetList({test::of(K::kDifference, {block, dent}, 0.0023), {}, 1e-5}), random), 1.001);
+  int surfaces = 0;
+  for (int i = 0; i < 12; ++i) {
+    const Expression box = turned(test::box(Vec3(0.02, 0.03, 0.025)), random);
+    Expression other = i % 3 == 0   ? test::sphere(random.uniform(0.006, 0.012))
+                       : i % 3 == 1 ? turned(test::rod(K::kCapsule, 0.006, 0.04), random)
+                                    : turned(test::torus(0.012, 0.004), random);
+    other.place = random.inCube(0.015);
+    const K kinds[] = {K::kUnion, K::kIntersection, K::kDifference};
+    const double smooth = i < 3 ? 0 : random.uniform(0.001, 0.006);
+    try {
+      const SheetList list({test::of(kinds[random.below(3)], {box, other}, smooth), {}, 5e-5});
+      EXPECT_LE(list.error_m, 5e-5 + 1e-12);
+      EXPECT_LE(worstAtEdges(list, random), 1.001) << i;
+      ++surfaces;
+    } catch (const Error&) {
+    }
+  }
+  EXPECT_GT(surfaces, 6);
 }
 
 bool isKept(const Expression& expression, double error_m) {

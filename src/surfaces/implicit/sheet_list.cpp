@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "surfaces/implicit/sheet_measure.h"
 
 namespace hl {
 
@@ -63,18 +62,20 @@ SheetList::SheetList(const ImplicitSpec& of) : spec(of), function(of.expression)
   if (sheets.empty()) throw Error("there is no surface within its bounds");
 }
 
-// What the error of a triangle may be, if cutting at edges may triple it.
-double SheetList::errorOf(std::size_t number) const {
-  return function.conditions(number).empty() ? spec.error_m : spec.error_m / 3;
+// How many times the error of a triangle of a sheet that is of the whole, once it is cut off where the value of another
+// is above twice that error times its steepest slope. Where it is least steep this is so much farther away, and the
+// value was off by the error again.
+double SheetList::growthOf(std::size_t number, const SheetMeasure& measure) const {
+  return function.conditions(number).empty() ? 1 : 1 + 2 * measure.unevenness();
 }
 
 // The bound must hold a cell beside the sheet, so it is found once to know how large cells are, and once more. There it
 // may turn out that the sheet is nowhere after all: what is left of a sheet just within another body.
 void SheetList::add(std::size_t number, std::size_t most_looks) {
-  const double most_error = errorOf(number);
   const auto stepFor = [&](const SheetMeasure& measure) {
     const double largest = kOfSize * measure.bounds.size().maxCoeff();
     if (!(measure.bend_per_m > 0)) return largest;
+    const double most_error = spec.error_m / growthOf(number, measure);
     return std::min({largest, kOfRadius / measure.bend_per_m, std::sqrt(2 * most_error / measure.bend_per_m)});
   };
   SheetSearch search(function, number, within);
@@ -104,12 +105,12 @@ void SheetList::add(std::size_t number, std::size_t most_looks) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     grid.cells[axis] =
         static_cast<std::uint32_t>(std::ceil(measure.bounds.size()[static_cast<Eigen::Index>(axis)] / step + 0.6));
-  const double error = 0.5 * step * step * measure.bend_per_m, slope = std::max(1.0, measure.slope);
+  const double error = 0.5 * step * step * measure.bend_per_m, steepest = measure.cut_slope.high;
   const double rounding = kSlackRounding * (within.min.cwiseAbs() + within.max.cwiseAbs()).maxCoeff();
-  sheets.emplace_back(function, number, grid, 2 * error * slope + rounding);
+  sheets.emplace_back(function, number, grid, 2 * error * steepest + rounding);
   bounds.extend(Box{grid.origin, grid.at(Vec3(grid.cells[0], grid.cells[1], grid.cells[2]))});
-  error_m = std::max(error_m, (function.conditions(number).empty() ? 1 : 3) * error + rounding);
-  off = std::max(off, 3 * error * slope + rounding);
+  error_m = std::max(error_m, growthOf(number, measure) * error + rounding);
+  off = std::max(off, 3 * error * std::max(steepest, measure.own_slope.high) + rounding);
   triangles += 1.5 * measure.area_m2 / (step * step);
 }
 

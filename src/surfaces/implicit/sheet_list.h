@@ -5,6 +5,7 @@
 
 #include "surfaces/implicit/implicit_spec.h"
 #include "surfaces/implicit/sheet.h"
+#include "surfaces/implicit/sheet_measure.h"
 
 namespace hl {
 
@@ -30,7 +31,7 @@ struct SheetList {
 
  private:
   void add(std::size_t number, std::size_t most_looks);
-  double errorOf(std::size_t number) const;
+  double growthOf(std::size_t number, const SheetMeasure& measure) const;
 };
 
 }  // namespace hl

@@ -48,6 +48,16 @@ double mostSlope(const Jet<Interval, 2>& jet) {
   return Vec3(jet.slope[0].most(), jet.slope[1].most(), jet.slope[2].most()).norm();
 }
 
+// What is known of all such functions is tighter: of one body's distance the gradient is 1.
+Interval slopeOf(const SmoothFunction& smooth, double least, double most) {
+  if (!smooth.isNoSteeperThanDistance()) return {least, most};
+  return smooth.bodies() == 1 ? Interval{1, 1} : Interval{std::min(least, 1.0), std::min(most, 1.0)};
+}
+
+void extend(Interval& slope, const Interval& other) {
+  slope = {std::min(slope.low, other.low), std::max(slope.high, other.high)};
+}
+
 // Also by the plane in the middle, from which it differs by no more than its gradient may vary.
 bool mayBeZero(const SmoothFunction& smooth, const SmoothFunction::Space& space) {
   const Jet<Interval, 1> jet = smooth.slopeOver(space);
@@ -78,9 +88,14 @@ SmoothFunction::Space spaceOf(const Box& box, double margin) {
   return space;
 }
 
+// What the number of triangles grows with.
+double SheetSearch::Piece::effort() const {
+  return bend_per_m * (cut_slope.high > 0 ? 1 + 2 * cut_slope.high / cut_slope.low : 3);
+}
+
 bool SheetSearch::Piece::operator<(const Piece& other) const {
   if (coarse != other.coarse) return other.coarse;
-  if (bend_per_m != other.bend_per_m) return bend_per_m < other.bend_per_m;
+  if (effort() != other.effort()) return effort() < other.effort();
   return order > other.order;
 }
 
@@ -111,7 +126,7 @@ void SheetSearch::refine(std::size_t most_looks) {
   while (!boxes_.empty() && looked_ < most_looks) {
     const Piece top = boxes_.top();
     const bool fine = top.box.size().maxCoeff() < kFine * size_;
-    if ((!top.coarse && top.bend_per_m <= kGoodEnough * about_) || fine) return;
+    if ((!top.coarse && top.effort() <= 3 * kGoodEnough * about_) || fine) return;
     boxes_.pop();
     for (int part = 0; part < 8; ++part) add(partOf(top.box, part));
   }
@@ -162,16 +177,17 @@ void SheetSearch::add(const Box& box) {
   if (!mayBeZero(own, space)) return;
   looked_ += 1 + others_.size();
   if (!SheetSides().mayHold(function_, conditions_, 0, space)) return;
-  Piece piece{box.size().maxCoeff() > kCoarse * size_, 0, 0, box, order_++};
-  look(sheet_, space, piece);
+  const SheetMeasure none;
+  Piece piece{box.size().maxCoeff() > kCoarse * size_, 0, none.own_slope, none.cut_slope, box, order_++};
+  look(sheet_, space, piece, piece.own_slope);
   for (const std::size_t other : others_) {
     const SmoothFunction& smooth = function_.sheets()[other];
-    if (smooth.over(space).holds(0)) look(other, space, piece);
+    if (smooth.over(space).holds(0)) look(other, space, piece, piece.cut_slope);
   }
   boxes_.push(piece);
 }
 
-void SheetSearch::look(std::size_t sheet, const SmoothFunction::Space& space, Piece& piece) {
+void SheetSearch::look(std::size_t sheet, const SmoothFunction::Space& space, Piece& piece, Interval& slope) {
   const SmoothFunction& smooth = function_.sheets()[sheet];
   const Period* const period = periodOf(sheet);
   const Jet<Interval, 2> jet = smooth.bendOver(space);
@@ -179,7 +195,12 @@ void SheetSearch::look(std::size_t sheet, const SmoothFunction::Space& space, Pi
   const double least = leastSlope(smooth, space, jet, bend.most), most = mostSlope(jet);
   const double bend_per_m = bend.most == 0 ? 0 : least > 0 ? bend.most / least : Interval::kNoEnd;
   piece.bend_per_m = std::max(piece.bend_per_m, period ? std::min(bend_per_m, period->measure.bend_per_m) : bend_per_m);
-  piece.slope = std::max(piece.slope, period ? std::min(most, period->measure.slope) : most);
+  Interval found = slopeOf(smooth, least, most);
+  if (period) {
+    const Interval& known = period->measure.own_slope;
+    found = {std::max(found.low, known.low), std::min(found.high, known.high)};
+  }
+  extend(slope, found);
   const bool narrow = bend.most <= 2 * bend.middle && most <= 2 * least;
   if (narrow && most > 0) about_ = std::max(about_, bend.middle / most);
 }
@@ -192,7 +213,8 @@ SheetMeasure SheetSearch::result() const {
     const Piece& piece = boxes.top();
     measure.bounds.extend(piece.box);
     measure.bend_per_m = std::max(measure.bend_per_m, piece.bend_per_m);
-    measure.slope = std::max(measure.slope, piece.slope);
+    extend(measure.own_slope, piece.own_slope);
+    extend(measure.cut_slope, piece.cut_slope);
     const double volume_m3 = piece.box.size().prod();
     measure.area_m2 += period ? volume_m3 * period->measure.area_m2 / period->volume_m3 : std::pow(volume_m3, 2.0 / 3);
   }

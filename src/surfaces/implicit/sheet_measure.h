@@ -19,9 +19,14 @@ struct SheetMeasure {
   /// Bound of |second derivatives| / |gradient|, of the sheet and of what it is cut off by; infinite where no gradient
   /// could be proved not to vanish.
   double bend_per_m = 0;
-  double slope = 0;              ///< bound of |gradient|, of both
-  double area_m2 = 0;            ///< about
-  Vec3 sharpest = Vec3::Zero();  ///< where the bend may be largest
+  Interval own_slope{Interval::kNoEnd, 0};  ///< of |gradient|, of the sheet
+  Interval cut_slope{Interval::kNoEnd, 0};  ///< of what it is cut off by, where that is; as it is here: by nothing
+  double area_m2 = 0;                       ///< about
+  Vec3 sharpest = Vec3::Zero();             ///< where the bend may be largest
+
+  /// How much farther away from what cuts it off one place may be than another where its value is the same; infinite
+  /// where no gradient could be proved not to vanish.
+  double unevenness() const { return cut_slope.high > 0 ? cut_slope.high / cut_slope.low : 1; }
 };
 
 /// Boxes that hold the sheet; those are halved where most is to be gained. Setup only.
@@ -39,9 +44,11 @@ class SheetSearch {
  private:
   struct Piece {
     bool coarse;  // these are halved first
-    double bend_per_m, slope;
+    double bend_per_m;
+    Interval own_slope, cut_slope;
     Box box;
     std::size_t order;
+    double effort() const;
     bool operator<(const Piece& other) const;
   };
 
@@ -49,7 +56,7 @@ class SheetSearch {
   struct Period {
     std::size_t sheet;
     std::unique_ptr<SheetSearch> search;
-    SheetMeasure measure{{}, Interval::kNoEnd, Interval::kNoEnd};
+    SheetMeasure measure{{}, Interval::kNoEnd, {0, Interval::kNoEnd}};
     double volume_m3 = 1;
   };
   struct WithoutConditions {};
@@ -60,7 +67,7 @@ class SheetSearch {
   void searchPeriods(std::size_t most_looks);
   const Period* periodOf(std::size_t sheet) const;
   void add(const Box& box);
-  void look(std::size_t sheet, const SmoothFunction::Space& space, Piece& piece);
+  void look(std::size_t sheet, const SmoothFunction::Space& space, Piece& piece, Interval& slope);
 
   const ImplicitFunction& function_;
   const std::size_t sheet_;

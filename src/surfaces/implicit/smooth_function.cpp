@@ -96,6 +96,11 @@ Result SmoothFunction::evaluated(const std::array<Number, 3>& p) const {
   return waiting[0];
 }
 
+bool SmoothFunction::isNoSteeperThanDistance() const {
+  return std::none_of(steps_.begin(), steps_.end(),
+                      [](const Step& step) { return step.blend == 0 && step.body.kind == BodyKind::kGyroid; });
+}
+
 std::optional<Vec3> SmoothFunction::halfPeriod() const {
   if (steps_.size() != 1 || steps_.front().body.kind != BodyKind::kGyroid) return std::nullopt;
   return M_PI * steps_.front().body.axes.inverse().cwiseAbs().rowwise().sum();

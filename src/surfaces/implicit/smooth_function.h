@@ -42,6 +42,9 @@ class SmoothFunction {
 
   std::size_t bodies() const { return (steps_.size() + 1) / 2; }
   bool fits() const { return waiting_ <= kMaxWaiting; }
+  /// Whether its gradient is nowhere longer than 1, as that of a distance, and of a blend of distances, which is a mean
+  /// of theirs.
+  bool isNoSteeperThanDistance() const;
   /// Half the sides of a box that holds, wherever it is, all values that there are; nothing: no box does.
   std::optional<Vec3> halfPeriod() const;
 
