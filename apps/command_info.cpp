@@ -12,6 +12,7 @@
 #include "bodies/made_bodies.h"
 #include "commands.h"
 #include "scene/bump_gain.h"
+#include "scene/tight_bounds.h"
 #include "surfaces/height_field.h"
 #include "surfaces/implicit/implicit_surface.h"
 #include "surfaces/iso_surface.h"
@@ -108,8 +109,9 @@ void printReading(const Reading& reading) {
 }
 
 void printTotals(const Totals& all, const Snapshot& snapshot) {
-  const Vec3 size = snapshot.bounds.size();
-  const Vec3 &from = snapshot.bounds.min, &to = snapshot.bounds.max;
+  const Box bounds = tightBounds(snapshot);
+  const Vec3 size = bounds.size();
+  const Vec3 &from = bounds.min, &to = bounds.max;
   fmt::print("primitives: {} ({} triangles, {} segments, {} points given; {} vertices)\n", snapshot.primitives,
              all.triangles, all.segments, all.points, all.vertices);
   if (all.reading.joined_vertices > 0)

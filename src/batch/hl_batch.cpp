@@ -26,6 +26,7 @@
 #include "io/load_scene.h"
 #include "io/read_heights.h"
 #include "scene/scene_model.h"
+#include "scene/tight_bounds.h"
 #include "surfaces/cloud_maker.h"
 #include "surfaces/grid_frame.h"
 #include "surfaces/height_field.h"
@@ -330,8 +331,9 @@ size_t hlBatchScenePrimitives(const HLbatchScene* scene) { return scene != nullp
 
 void hlBatchSceneBounds(const HLbatchScene* scene, HLdouble* low, HLdouble* high) {
   if (scene == nullptr) return;
-  put(low, 0, scene->snapshot->bounds.min);
-  put(high, 0, scene->snapshot->bounds.max);
+  const Box bounds = tightBounds(*scene->snapshot);
+  put(low, 0, bounds.min);
+  put(high, 0, bounds.max);
 }
 
 void hlBatchSettings(HLbatchSettings* settings) {

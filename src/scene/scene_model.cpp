@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "geometry/tight_box.h"
 #include "scene/append_part.h"
 #include "scene/iso_shape.h"
 #include "scene/split_model.h"
@@ -116,16 +117,21 @@ SceneSurface withIso(const SceneSurface& surface, double value) {
   return other;
 }
 
-}  // namespace
-
-Box boundsOf(const SceneModel& scene) {
+template <typename BoxOfSource>
+Box boundsWith(const SceneModel& scene, const BoxOfSource& box_of) {
   Box bounds = scene.model.bounds();
-  for (const SceneSurface& surface : scene.surfaces) bounds.extend(surface.source->bounds());
+  for (const SceneSurface& surface : scene.surfaces) bounds.extend(box_of(*surface.source));
   for (const SceneBody& body : scene.bodies) {
     const Box box = body.model.bounds();
     if (!box.empty()) bounds.extend(boxAt(box, body.pose));
   }
   return bounds;
+}
+
+}  // namespace
+
+Box boundsOf(const SceneModel& scene) {
+  return boundsWith(scene, [](const PrimitiveSource& source) { return source.bounds(); });
 }
 
 Model asOneModel(const SceneModel& scene) {
@@ -243,7 +249,8 @@ std::size_t fieldsIn(const SceneModel& scene) {
 
 double fitModel(SceneModel& scene, double side) {
   if (isOneModel(scene)) return fitModel(scene.model, side);
-  const Box bounds = boundsOf(scene);
+  const Box bounds =
+      boundsWith(scene, [](const PrimitiveSource& source) { return tightBox(source, *source.makeIndex()); });
   const double largest = bounds.empty() ? 0 : bounds.size().maxCoeff();
   if (!(largest > 0)) return 1;
   const double factor = side / largest;
