@@ -75,17 +75,19 @@ def volume(samples: Any) -> npt.NDArray[Any]:
 
 
 def grid(samples: Any, axes: int, name: str, least: str) -> npt.NDArray[Any]:
-    """In C order and the machine's order of bytes: int16, uint16, or else float32."""
+    """In C order and the machine's order of bytes: int16, uint16, or else float32, in which what is beyond its range is
+    infinite, as a sample that is missing is."""
     try:
         array = np.asarray(samples)
     except ValueError as error:
         raise InvalidValueError(f"{name} must be numbers: {error}") from None
-    if array.dtype.kind not in "fiu":
+    if array.dtype.kind not in "fiub":
         raise InvalidValueError(f"{name} must be numbers, and are {array.dtype}")
     if array.ndim != axes or min(array.shape) < 2:
         raise InvalidValueError(f"{name} must have {least} or more, and have the shape {array.shape}")
     kind = array.dtype.newbyteorder("=")
-    return np.ascontiguousarray(array, dtype=kind if kind in (np.int16, np.uint16) else np.float32)
+    with np.errstate(over="ignore"):
+        return np.ascontiguousarray(array, dtype=kind if kind in (np.int16, np.uint16) else np.float32)
 
 
 def steps(spacing: Any, axes: int) -> List[float]:

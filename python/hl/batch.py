@@ -366,6 +366,14 @@ _OPTIONS = {
 }
 
 
+# What a scene file says of another file, which a call cannot.
+_IN_SCENE_FILES = {
+    "iso": '{"objects": [{"volume": {"file": "head.nii.gz", "iso": 300}}]}',
+    "below": '{"objects": [{"volume": {"file": "distances.nrrd", "iso": 0, "below": true}}]}',
+    "surfels": '{"objects": [{"points": {"file": "scan.ply", "surfels": true}}]}',
+}
+
+
 def _is_said(value: Any) -> bool:
     return not (value is None or value is False or (isinstance(value, (int, float)) and value == 0))
 
@@ -378,6 +386,8 @@ def _kind_of(made_of: Dict[str, Any], options: Dict[str, Any]) -> str:
     for name, value in options.items():
         needed = _OPTIONS[name]
         said = value is not None if name in ("missing", "iso") else _is_said(value)
+        if said and kinds[0] == "a file" and name in _IN_SCENE_FILES:
+            raise InvalidValueError(f"{name} of a file belongs into a scene file: {_IN_SCENE_FILES[name]}")
         if said and kinds[0] not in needed:
             raise InvalidValueError(f"{name} belongs to {' and '.join(needed)}, and this scene is made of {kinds[0]}")
     return kinds[0]

@@ -13,6 +13,7 @@ import tempfile
 import threading
 import time
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -223,6 +224,31 @@ class Volumes(unittest.TestCase):
                       {"a": object()}):
             self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(implicit=wrong))
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", implicit={}))
+
+    def test_samples_may_be_booleans(self):
+        ball = np.linalg.norm(np.indices((9, 9, 9)) - 4, axis=0) < 3
+        self.assertEqual(
+            hl.Scene(volume=ball, iso=0.5).primitives, hl.Scene(volume=ball.astype(np.float32), iso=0.5).primitives
+        )
+        steps = hl.Scene(heights=ball[4])
+        np.testing.assert_allclose(steps.bounds, [[-4, 0, -4], [4, 1, 4]], atol=1e-3)
+
+    def test_heights_beyond_single_precision_are_missing(self):
+        heights = np.zeros((5, 5))
+        heights[0, 0] = 1e300
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(hl.Scene(heights=heights).primitives, 30)
+
+    def test_what_a_scene_file_says_of_another_file_is_told(self):
+        for name, value in (("iso", 300), ("below", True), ("surfels", True)):
+            with self.assertRaisesRegex(hl.InvalidValueError, f"^{name} of a file belongs into a scene file: "):
+                hl.Scene("head.nii.gz", **{name: value})
+
+    def test_bounds_and_size_are_of_the_surface_itself(self):
+        z, y, x = np.meshgrid(*3 * [np.arange(-8.0, 9)], indexing="ij")
+        ball = hl.Scene(volume=3 - np.sqrt(x * x + y * y + z * z), iso=0.0)
+        np.testing.assert_allclose(ball.bounds, [[-3] * 3, [3] * 3], atol=0.1)
 
     def test_what_is_no_volume_is_refused(self):
         good = np.arange(8, dtype=np.float32).reshape(2, 2, 2)
