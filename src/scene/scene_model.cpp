@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/error.h"
-#include "geometry/tight_box.h"
 #include "scene/append_part.h"
 #include "scene/iso_shape.h"
 #include "scene/split_model.h"
+#include "scene/tight_bounds.h"
 #include "surfaces/height_field.h"
 #include "surfaces/iso_surface.h"
 #include "surfaces/point_cloud.h"
@@ -250,7 +250,7 @@ std::size_t fieldsIn(const SceneModel& scene) {
 double fitModel(SceneModel& scene, double side) {
   if (isOneModel(scene)) return fitModel(scene.model, side);
   const Box bounds =
-      boundsWith(scene, [](const PrimitiveSource& source) { return tightBox(source, *source.makeIndex()); });
+      boundsWith(scene, [](const PrimitiveSource& source) { return tightBounds(source, *source.makeIndex()); });
   const double largest = bounds.empty() ? 0 : bounds.size().maxCoeff();
   if (!(largest > 0)) return 1;
   const double factor = side / largest;

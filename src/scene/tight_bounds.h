@@ -6,8 +6,11 @@
 
 namespace hl {
 
+/// As tightBox(); but of a height field the box of its grid, as what comes from beside meets too many of its triangles.
+Box tightBounds(const PrimitiveSource& source, const SpatialIndex& index, const Mat3& turn = Mat3::Identity());
+
 /// Of all instances when their motion is over, and of bodies where they are now; of surfaces that make their primitives
-/// as tightBox() says.
+/// as above.
 Box tightBounds(const Snapshot& snapshot);
 
 }  // namespace hl
