@@ -140,26 +140,27 @@ ImageSize sizeOfImage(const std::string& bytes) {
 }
 
 std::shared_ptr<const std::string> checkedPicture(std::string bytes) {
-  constexpr std::size_t kMaxSide = 8192;  // what graphics processors take
+  constexpr std::size_t kMaxPictureSide = 8192;  // what graphics processors take
   const ImageSize size = sizeOfImage(bytes);
-  if (size.width > kMaxSide || size.height > kMaxSide)
-    throw Error(fmt::format("has {} x {} pixels, and {} a side are the most", size.width, size.height, kMaxSide));
+  if (size.width > kMaxPictureSide || size.height > kMaxPictureSide)
+    throw Error(
+        fmt::format("has {} x {} pixels, and {} a side are the most", size.width, size.height, kMaxPictureSide));
   return std::make_shared<const std::string>(std::move(bytes));
 }
 
 std::shared_ptr<const std::string> loadPicture(const std::string& path) {
   checkIsImage(path);
-  const Model carrier = runIsolated(
-                            path, {},
-                            [&](const auto&) {
-                              Model carrier;
-                              carrier.appearance.pictures.push_back({checkedPicture(contentOf(path).value_or(""))});
-                              return carrier;
-                            },
-                            nullptr)
-                            .model;
-  if (carrier.appearance.pictures.size() != 1) throw Error(path + ": its reader gave no picture");
-  return carrier.appearance.pictures.front().file;
+  const Model read = runIsolated(
+                         path, {},
+                         [&](const auto&) {
+                           Model carrier;
+                           carrier.appearance.pictures.push_back({checkedPicture(contentOf(path).value_or(""))});
+                           return carrier;
+                         },
+                         nullptr)
+                         .model;
+  if (read.appearance.pictures.size() != 1) throw Error(path + ": its reader gave no picture");
+  return read.appearance.pictures.front().file;
 }
 
 Texture readImage(const std::string& path) {

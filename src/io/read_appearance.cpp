@@ -18,7 +18,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{256} << 20;  // of all pictures together, as files
+constexpr std::size_t kMaxPictureBytes = std::size_t{256} << 20;  // of all pictures together, as files
 
 // What exporters write into a name.
 std::string withSlashes(std::string name) {
@@ -104,7 +104,7 @@ std::optional<std::uint32_t> AppearanceReader::pictureOf(const aiMaterial& mater
     if (!fresh) return known->second;
     try {
       std::shared_ptr<const std::string> file = fileOf(name);
-      if (file->size() > kMaxBytes - bytes_) throw Error("comes after 256 MB of others");
+      if (file->size() > kMaxPictureBytes - bytes_) throw Error("comes after 256 MB of others");
       bytes_ += file->size();
       appearance_.pictures.push_back({std::move(file), wrap});
       known->second = static_cast<std::uint32_t>(appearance_.pictures.size() - 1);

@@ -44,7 +44,8 @@ class Slider {
       const double drag_Ns_m = -make().force_N.x() / kSpeed_m_s;
       most_Ns_m = std::max(most_Ns_m, drag_Ns_m);
       least_Ns_m = std::min(least_Ns_m, drag_Ns_m);
-      ASSERT_EQ(step_.tick().report.contacts.size(), 1U);
+      ASSERT_TRUE(step_.tick());
+      ASSERT_EQ(step_.tick()->report.contacts.size(), 1U);
     }
   }
   /// Until the servo knows the speed.
