@@ -8,8 +8,9 @@
 namespace hl {
 
 /// The box of its primitives along the axes of another frame, whose coordinates are turn x: no side of it lies beyond
-/// them, and none is short of them by more than 1/20 000 of the diagonal of source.bounds(). Empty: there are none.
-/// `index`: the source's own. Some sweeps; setup only.
+/// them, and it is short of them by some 1/20 000 of the diagonal of source.bounds(), or a few times as much where
+/// thousands of primitives are about as high. Empty: there are none. `index`: the source's own. Some sweeps; setup
+/// only.
 Box tightBox(const PrimitiveSource& source, const SpatialIndex& index, const Mat3& turn = Mat3::Identity());
 
 }  // namespace hl

@@ -143,7 +143,8 @@ SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
 SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
   std::error_code failed;
   const bool folder = std::filesystem::is_directory(path, failed);
-  if (folder && !isDicomFolder(path)) throw Error(path + ": is a folder, and no DICOM file is in it");
+  if (folder && !isDicomFolder(path))
+    throw Error(path + ": is a folder, and no DICOM file is in it; folders beneath it are not searched");
   if (!folder) checkReadable(path);
   const std::string ending = folder ? "" : endingOf(path);
   if (!folder && !readsEnding(ending)) throw Error(path + ": " + cannotBeRead(ending));
@@ -154,7 +155,10 @@ SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
   };
   const bool by_program = readsCad(ending) || readsVdb(ending);
   SceneModel scene = by_program ? readByProgram(path, ending, options) : read_isolated();
-  if (elementsIn(scene) == 0) throw Error(path + ": there is no geometry in it");
+  if (elementsIn(scene) == 0) {
+    const auto& warnings = scene.model.warnings;
+    throw Error(path + ": there is no geometry in it" + (warnings.empty() ? "" : ": " + warnings.front()));
+  }
   scene.model.name = std::filesystem::path(path).filename().string();
   for (SceneSurface& surface : scene.surfaces) surface.name = scene.model.name;
   if (options.progress) options.progress(1);

@@ -108,7 +108,7 @@ TEST(SheetSides, WhatIsKnownOfABoxChangesNoCutInIt) {
   test::Random random(8);
   int cut = 0, saved = 0;
   std::unique_ptr<const SheetList> solid;
-  for (int i = 0; i < 600 * test::longer(); ++i) {
+  for (int i = 0; i < 3000 * test::longer(); ++i) {
     if (i % 100 == 0) solid = std::make_unique<SheetList>(ImplicitSpec{machined(random), test::cube(0.012), 1e-3});
     const SheetList& list = *solid;
     const Sheet& sheet = list.sheets[static_cast<std::size_t>(random.below(static_cast<int>(list.sheets.size())))];
