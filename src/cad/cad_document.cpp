@@ -24,10 +24,7 @@ constexpr const char* kUnnamed = "solid";
 Rgb screenColour(const Quantity_Color& colour) {
   Standard_Real red = 0, green = 0, blue = 0;
   colour.Values(red, green, blue, Quantity_TOC_sRGB);
-  const auto byte = [](double part) {
-    return static_cast<std::uint8_t>(std::clamp(std::lround(255 * part), 0L, 255L));
-  };
-  return {byte(red), byte(green), byte(blue)};
+  return {colourByte(red), colourByte(green), colourByte(blue)};
 }
 
 // UTF-8.

@@ -8,9 +8,6 @@
 #include <Inventor/nodes/SoSeparator.h>
 #include <Inventor/nodes/SoShape.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/error.h"
 #include "io/load_model.h"
 #include "io/sandbox.h"
@@ -43,11 +40,7 @@ Rgb colourOf(SoCallbackAction& action, const SoPrimitiveVertex& vertex) {
   SbColor ambient, diffuse, specular, emission;
   float shininess = 0, transparency = 0;
   action.getMaterial(ambient, diffuse, specular, emission, shininess, transparency, vertex.getMaterialIndex());
-  const auto byte = [&](int i) {
-    const float part = diffuse[i];
-    return part > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(part, 1.0F))) : std::uint8_t{0};
-  };
-  return {byte(0), byte(1), byte(2)};
+  return {colourByte(diffuse[0]), colourByte(diffuse[1]), colourByte(diffuse[2])};
 }
 
 std::uint32_t addVertex(Collector& collector, SoCallbackAction& action, const SoPrimitiveVertex* vertex) {

@@ -126,6 +126,17 @@ void checkIsImage(const std::string& path) {
   checkPlainFile(path);
 }
 
+// What a child process puts into a model.
+template <typename Read>
+Model readBeside(const std::string& path, const Read& read) {
+  const auto parse = [&](const auto&) {
+    Model carrier;
+    read(carrier);
+    return carrier;
+  };
+  return runIsolated(path, {}, parse, nullptr).model;
+}
+
 }  // namespace
 
 ImageSize sizeOfImage(const std::string& bytes) {
@@ -150,15 +161,9 @@ std::shared_ptr<const std::string> checkedPicture(std::string bytes) {
 
 std::shared_ptr<const std::string> loadPicture(const std::string& path) {
   checkIsImage(path);
-  const Model read = runIsolated(
-                         path, {},
-                         [&](const auto&) {
-                           Model carrier;
-                           carrier.appearance.pictures.push_back({checkedPicture(contentOf(path).value_or(""))});
-                           return carrier;
-                         },
-                         nullptr)
-                         .model;
+  const Model read = readBeside(path, [&](Model& carrier) {
+    carrier.appearance.pictures.push_back({checkedPicture(contentOf(path).value_or(""))});
+  });
   if (read.appearance.pictures.size() != 1) throw Error(path + ": its reader gave no picture");
   return read.appearance.pictures.front().file;
 }
@@ -173,15 +178,7 @@ Texture readImage(const std::string& path) {
 
 Texture loadImage(const std::string& path) {
   checkIsImage(path);
-  Model model = runIsolated(
-                    path, {},
-                    [&](const auto&) {
-                      Model carrier;
-                      carrier.textures.push_back(readImage(path));
-                      return carrier;
-                    },
-                    nullptr)
-                    .model;
+  Model model = readBeside(path, [&](Model& carrier) { carrier.textures.push_back(readImage(path)); });
   if (model.textures.size() != 1) throw Error(path + ": its reader gave no picture");
   return std::move(model.textures.front());
 }

@@ -94,8 +94,8 @@ class SceneFile {
   Model fileModel(const proto::SceneObject& object, const std::string& where);
   CadMeshing meshingOf(const proto::SceneObject& object, const std::string& where) const;
   std::optional<Rgb> colourOf(const proto::SceneObject& object, const std::string& where) const;
-  Appearance pictureOn(const proto::SceneObject& object, bool has_texcoords, const std::string& where) const;
-  void paint(const proto::SceneObject& object, const std::string& where, Model& part) const;
+  Appearance pictureOn(const proto::SceneObject& object, bool has_texcoords, const std::string& where);
+  void paint(const proto::SceneObject& object, const std::string& where, Model& part);
   void setMaterial(const proto::SceneObject& object, const std::string& where, const Model& whole,
                    SceneSurface& surface) const;
   void addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene);
@@ -126,7 +126,8 @@ class SceneFile {
     CadMeshing meshing;
     Model model;
   };
-  std::vector<ReadFile> files_;  // read once, however many objects show them
+  std::vector<ReadFile> files_;                                         // read once, however many objects show them
+  std::map<std::string, std::shared_ptr<const std::string>> pictures_;  // the same
 };
 
 void SceneFile::parse() {
@@ -261,23 +262,25 @@ std::optional<Rgb> SceneFile::colourOf(const proto::SceneObject& object, const s
 }
 
 // None: it says of no picture.
-Appearance SceneFile::pictureOn(const proto::SceneObject& object, bool has_texcoords, const std::string& where) const {
+Appearance SceneFile::pictureOn(const proto::SceneObject& object, bool has_texcoords, const std::string& where) {
   if (object.picture().empty()) return {};
   const std::string at = where + ".picture";
   if (options_.alone) fail(at, at + ": " + kAlone);
   if (!has_texcoords) fail(at, at + ": it has no texture coordinates, over which a picture could lie");
   Appearance appearance;
   try {
-    appearance.pictures.push_back({loadPicture((folder_ / object.picture()).string())});
+    const auto [picture, fresh] = pictures_.try_emplace(object.picture());
+    if (fresh) picture->second = loadPicture((folder_ / object.picture()).string());
+    appearance.pictures.push_back({picture->second});
   } catch (const Error& error) {
     fail(at, at + ": " + error.what());
   }
-  appearance.paints = {{colourOf(object, where).value_or(Rgb{255, 255, 255}), 0}};
+  appearance.paints = {{colourOf(object, where).value_or(kWhite), 0}};
   return appearance;
 }
 
 // In the place of what its own file says.
-void SceneFile::paint(const proto::SceneObject& object, const std::string& where, Model& part) const {
+void SceneFile::paint(const proto::SceneObject& object, const std::string& where, Model& part) {
   const std::optional<Rgb> colour = colourOf(object, where);
   Appearance appearance = pictureOn(object, !part.texcoords.empty(), where);
   if (colour && appearance.paints.empty()) appearance.paints = {{*colour, {}}};

@@ -63,16 +63,11 @@ void PointRecord::requireCoordinates() const {
 
 namespace {
 
-// What a colour of this form is multiplied by to be 0..255; 0: it is none.
+// What a colour of this form is multiplied by to be 0..1; 0: it is none.
 double colourFactor(ScalarKind form) {
-  if (form == ScalarKind::kUint8) return 1;
-  if (form == ScalarKind::kUint16) return 1.0 / 257;
-  return form == ScalarKind::kFloat || form == ScalarKind::kDouble ? 255 : 0;
-}
-
-// Not a number is 0.
-std::uint8_t colourByte(double value) {
-  return value > 0 ? static_cast<std::uint8_t>(std::min(std::floor(value + 0.5), 255.0)) : std::uint8_t{0};
+  if (form == ScalarKind::kUint8) return 1.0 / 255;
+  if (form == ScalarKind::kUint16) return 1.0 / 65535;
+  return form == ScalarKind::kFloat || form == ScalarKind::kDouble ? 1 : 0;
 }
 
 }  // namespace

@@ -31,11 +31,6 @@ float toScreen(float linear) {
   return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
 }
 
-// What is no number is black.
-std::uint8_t byteOf(float part) {
-  return part > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(part, 1.0F))) : std::uint8_t{0};
-}
-
 }  // namespace
 
 AppearanceReader::AppearanceReader(const aiScene& scene, const ModelFile& file)
@@ -48,7 +43,6 @@ void AppearanceReader::add(const aiMesh& mesh, std::size_t triangles) {
 }
 
 void AppearanceReader::addVertexColours(const aiMesh& mesh) {
-  constexpr Rgb kWhite{255, 255, 255};
   auto& colours = appearance_.vertex_colours;
   vertices_ += mesh.mNumVertices;
   if (!mesh.HasVertexColors(0)) {
@@ -60,7 +54,7 @@ void AppearanceReader::addVertexColours(const aiMesh& mesh) {
 }
 
 Rgb AppearanceReader::rgbOf(const aiColor4D& colour) const {
-  const auto byte = [&](float part) { return byteOf(linear_ ? toScreen(part) : part); };
+  const auto byte = [&](float part) { return colourByte(linear_ ? toScreen(part) : part); };
   return {byte(colour.r), byte(colour.g), byte(colour.b)};
 }
 
@@ -85,7 +79,7 @@ Paint AppearanceReader::paintOf(const aiMaterial& material) {
       material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS)
     paint.colour = rgbOf(colour);
   // Many exporters leave the colour black where there is a picture, which readers take as it is.
-  if (paint.picture && paint.colour == Rgb{0, 0, 0}) paint.colour = {255, 255, 255};
+  if (paint.picture && paint.colour == Rgb{0, 0, 0}) paint.colour = kWhite;
   return paint;
 }
 
@@ -135,7 +129,7 @@ Appearance AppearanceReader::take(std::vector<std::string>& warnings) {
     if (++named <= kMostNamed) warnings.push_back(fmt::format("its picture '{}' is not shown: it {}", name, why));
   }
   if (named > kMostNamed) warnings.push_back(fmt::format("{} pictures more are not shown", named - kMostNamed));
-  if (!appearance_.vertex_colours.empty()) appearance_.vertex_colours.resize(vertices_, Rgb{255, 255, 255});
+  if (!appearance_.vertex_colours.empty()) appearance_.vertex_colours.resize(vertices_, kWhite);
   return std::exchange(appearance_, {});
 }
 

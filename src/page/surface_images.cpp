@@ -76,8 +76,6 @@ std::uint32_t addImage(const ShownImage& shown, proto::SceneMesh& mesh) {
   return static_cast<std::uint32_t>(mesh.images_size() - 1);
 }
 
-constexpr Rgb kWhite{255, 255, 255};
-
 Rgb multiplied(const Rgb& a, const Rgb& b) {
   const auto part = [&](std::size_t i) { return static_cast<std::uint8_t>((a[i] * b[i] + 127) / 255); };
   return {part(0), part(1), part(2)};

@@ -6,9 +6,24 @@ namespace hl {
 
 namespace {
 
-constexpr Rgb kWhite{255, 255, 255};
-
 bool isGrey(const Rgb& colour) { return colour[0] == colour[1] && colour[1] == colour[2]; }
+
+// Objects that show the same file have it once.
+std::uint32_t pictureIn(Appearance& whole, const Picture& picture) {
+  const auto is_same = [&](const Picture& one) { return one.file == picture.file && one.wrap == picture.wrap; };
+  const auto found = std::find_if(whole.pictures.begin(), whole.pictures.end(), is_same);
+  const auto number = static_cast<std::uint32_t>(found - whole.pictures.begin());
+  if (number == whole.pictures.size()) whole.pictures.push_back(picture);
+  return number;
+}
+
+std::uint16_t paintIn(Appearance& whole, const Paint& paint) {
+  const auto is_same = [&](const Paint& one) { return one.colour == paint.colour && one.picture == paint.picture; };
+  const auto found = std::find_if(whole.paints.begin(), whole.paints.end(), is_same);
+  const auto number = static_cast<std::size_t>(found - whole.paints.begin());
+  if (number == whole.paints.size() && number < Appearance::kMaxPaints) whole.paints.push_back(paint);
+  return static_cast<std::uint16_t>(std::min(number, whole.paints.size() - 1));
+}
 
 }  // namespace
 
@@ -39,18 +54,16 @@ void appendAppearance(Appearance& whole, std::size_t triangles, std::size_t vert
     whole.paints = {Paint{}};
     whole.triangle_paints.assign(triangles, 0);
   }
-  const std::vector<Paint> plain{Paint{}};
-  const bool painted = !part.triangle_paints.empty();
-  const std::size_t first = whole.paints.size(), first_picture = whole.pictures.size();
-  for (Paint paint : painted ? part.paints : plain) {
-    if (paint.picture) *paint.picture += static_cast<std::uint32_t>(first_picture);
-    if (whole.paints.size() < Appearance::kMaxPaints) whole.paints.push_back(paint);
+  std::vector<std::uint16_t> numbers;  // in the whole, of each paint of the part
+  for (Paint paint : part.paints) {
+    if (paint.picture) paint.picture = pictureIn(whole, part.pictures[*paint.picture]);
+    numbers.push_back(paintIn(whole, paint));
   }
-  whole.pictures.insert(whole.pictures.end(), part.pictures.begin(), part.pictures.end());
-  for (std::size_t i = 0; i < part_triangles; ++i) {
-    const std::size_t paint = first + (painted ? part.triangle_paints[i] : 0);
-    whole.triangle_paints.push_back(static_cast<std::uint16_t>(std::min(paint, whole.paints.size() - 1)));
+  if (part.triangle_paints.empty()) {
+    whole.triangle_paints.resize(triangles + part_triangles, paintIn(whole, Paint{}));
+    return;
   }
+  for (const std::uint16_t paint : part.triangle_paints) whole.triangle_paints.push_back(numbers[paint]);
 }
 
 void dropPlainAppearance(Appearance& appearance) {

@@ -21,7 +21,7 @@ struct Picture {
 
 /// What some of the triangles look like.
 struct Paint {
-  Rgb colour{255, 255, 255};               ///< multiplies the picture and the colours of vertices
+  Rgb colour = kWhite;                     ///< multiplies the picture and the colours of vertices
   std::optional<std::uint32_t> picture{};  ///< index into Appearance::pictures
 };
 

@@ -30,8 +30,8 @@ struct SceneSurface {
   Material material{};
   std::vector<Texture> textures{};  ///< that the material uses
   Vec2 repeat = Vec2::Ones();       ///< texture coordinates are multiplied by it
-  std::optional<Rgb> colour{};
-  Appearance appearance{};  ///< with a picture: one paint
+  std::optional<Rgb> colour{};      ///< as Label has it
+  Appearance appearance{};          ///< with a picture: one paint
 };
 
 /// Metres, world frame.

@@ -212,7 +212,9 @@ TEST(Appearance, GoesAlongWithItsModel) {
   for (const std::size_t plain : {0, 3}) EXPECT_EQ(paintOf(whole, plain).colour, (Rgb{255, 255, 255}));
   for (const std::size_t red : {1, 4}) EXPECT_EQ(paintOf(whole, red).colour, (Rgb{255, 0, 51}));
   EXPECT_EQ(paintOf(whole, 2).picture, std::optional<std::uint32_t>(0));
-  EXPECT_EQ(paintOf(whole, 5).picture, std::optional<std::uint32_t>(1));
+  EXPECT_EQ(paintOf(whole, 5).picture, std::optional<std::uint32_t>(0));
+  EXPECT_EQ(whole.appearance.pictures.size(), 1U) << "the file is there once";
+  EXPECT_EQ(whole.appearance.paints.size(), 3U);
   whole.appearance.vertex_colours.resize(whole.positions.size());
   whole.appearance.vertex_colours[3] = {1, 2, 3};
   whole.triangle_materials.clear();
@@ -230,7 +232,7 @@ TEST(Appearance, GoesAlongWithItsModel) {
   EXPECT_EQ(paintOf(joined, 3).colour, (Rgb{255, 255, 255}));
   EXPECT_EQ(parts[1].appearance.vertex_colours.front(), (Rgb{1, 2, 3}));
   EXPECT_EQ(paintOf(parts[1], 0).colour, (Rgb{255, 0, 51}));
-  EXPECT_EQ(paintOf(parts[2], 2).picture, std::optional<std::uint32_t>(1));
+  EXPECT_EQ(paintOf(parts[2], 2).picture, std::optional<std::uint32_t>(0));
 }
 
 SceneModel sceneOf(const std::string& objects) {
