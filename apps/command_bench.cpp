@@ -18,6 +18,7 @@
 #include "tick/interruptions.h"
 #include "tick/peers/peers.h"
 #include "tick/suite.h"
+#include "value_checks.h"
 
 namespace hl {
 

@@ -13,6 +13,7 @@
 #include "io/output_file.h"
 #include "stability_on_bodies.h"
 #include "tools/stability.h"
+#include "value_checks.h"
 
 namespace hl {
 

@@ -11,6 +11,7 @@
 #include "io/csv_path.h"
 #include "io/load_scene_file.h"
 #include "io/output_file.h"
+#include "load_snapshot.h"
 #include "monitor/ros_metrics.h"
 #include "monitor/share_metrics.h"
 #include "monitor/touch_monitor.h"
@@ -20,7 +21,9 @@
 #include "record/recorder.h"
 #include "serving.h"
 #include "session/touch_server.h"
+#include "surface_options.h"
 #include "touch_options.h"
+#include "value_checks.h"
 
 namespace hl {
 

@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "io/trace_csv.h"
+#include "load_snapshot.h"
 #include "trace_options.h"
 
 namespace hl {

@@ -8,10 +8,11 @@
 
 #include "base/error.h"
 #include "base/utf8.h"
-#include "commands.h"
 #include "io/load_scene_file.h"
 #include "io/load_sent.h"
+#include "load_snapshot.h"
 #include "monitor/event_log.h"
+#include "scene_report.h"
 #include "surfaces/point_cloud.h"
 
 namespace hl {

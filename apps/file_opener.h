@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "commands.h"
+#include "io/cad_file.h"
+#include "scene/scene_model.h"
 #include "session/touch_server.h"
 
 namespace hl {

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "file_opener.h"
 #include "io/load_sent.h"
+#include "option_errors.h"
 #include "sweep_worker.h"
 
 namespace {

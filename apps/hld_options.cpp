@@ -5,6 +5,7 @@
 
 #include "force_options.h"
 #include "serving.h"
+#include "value_checks.h"
 
 namespace hl {
 

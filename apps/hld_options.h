@@ -4,12 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "commands.h"
 #include "device_options.h"
 #include "http/http_server.h"
 #include "monitor/event_log.h"
 #include "record/recorder.h"
 #include "ros_options.h"
+#include "scene_options.h"
 #include "share_options.h"
 #include "touch/touch_session.h"
 

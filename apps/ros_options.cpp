@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "base/error.h"
-#include "commands.h"
 #include "dds_options.h"
 #include "ros/ros_process.h"
+#include "value_checks.h"
 
 namespace hl {
 

@@ -6,9 +6,9 @@
 #include <array>
 
 #include "base/error.h"
-#include "commands.h"
 #include "dds_options.h"
 #include "share/share_process.h"
+#include "value_checks.h"
 
 namespace hl {
 

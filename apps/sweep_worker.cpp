@@ -6,6 +6,7 @@
 #include "fleet/fleet_plan.h"
 #include "fleet/fleet_store.h"
 #include "fleet/worker_pool.h"
+#include "load_snapshot.h"
 #include "trace_options.h"
 
 namespace hl {

@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "commands.h"
 #include "device_options.h"
 #include "record/recorder.h"
 #include "ros_options.h"
+#include "scene_options.h"
 #include "share_options.h"
 #include "touch/touch_session.h"
 

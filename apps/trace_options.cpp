@@ -2,7 +2,9 @@
 
 #include <map>
 
+#include "surface_options.h"
 #include "tools/tremor.h"
+#include "value_checks.h"
 
 namespace hl {
 

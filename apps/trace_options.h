@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "commands.h"
+#include "scene_options.h"
 #include "tools/trace.h"
 
 namespace hl {
