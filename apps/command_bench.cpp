@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/error.h"
@@ -55,7 +56,7 @@ struct BenchOptions {
   double radius_edges = 1;
   std::size_t ticks = 20'000, most = 1'000'000, members = 1;
   bool all = false, peers = false, effects = true, bodies = false;
-  std::size_t depth = 0;              ///< pictures of a depth camera for each row; 0: none
+  std::optional<std::size_t> depth;   ///< pictures of a depth camera for each row; absent: not of a camera
   std::vector<std::string> surfaces;  ///< names of kSurfaceKinds; empty: meshes
   std::string csv;
 };
@@ -127,7 +128,7 @@ void run(const BenchOptions& options) {
   const bool built_in = !bench::peers().empty();
   if (options.peers && !built_in) throw Error(kNoPeers);
   if (options.bodies) return runBodyBench(options.peers, options.csv);
-  if (options.depth > 0) return runCameraBench({options.depth, options.csv});
+  if (options.depth) return runCameraBench({*options.depth, options.csv});
   if (!options.surfaces.empty())
     return runSurfaceBench({options.surfaces, options.most, options.ticks, options.radius, options.csv});
   if (options.most > kMaxMesh) throw Error(fmt::format("--most: meshes are measured up to {} triangles", kMaxMesh));

@@ -1,6 +1,7 @@
 // hl keys: keys with which programs of ROS 2 on other machines may reach a hand, and nobody else.
 #include <fmt/core.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,12 @@ namespace {
 struct KeysOptions {
   std::string folder;
   std::vector<std::string> names;
-  std::uint32_t domain = 0;
-  bool domain_said = false;
+  std::optional<std::uint32_t> domain;  // absent: that of the environment
 };
 
 void runKeys(const KeysOptions& options) {
   checkPrintable(options.folder, "the folder of keys");
-  const std::uint32_t domain = options.domain_said ? options.domain : ddsDomain();
+  const std::uint32_t domain = options.domain ? *options.domain : ddsDomain();
   std::vector<std::string> names;
   for (const std::string& name : options.names) names.push_back(rosNamespace(name));
   makeEnclaves(options.folder, names, domain);
@@ -44,14 +44,7 @@ void addKeysCommand(CLI::App& app) {
       ->required()
       ->allow_extra_args(false)
       ->option_text("NAME");
-  command
-      ->add_option_function<std::uint32_t>(
-          "--domain",
-          [options](const std::uint32_t& domain) {
-            options->domain = domain;
-            options->domain_said = true;
-          },
-          "of DDS, in which they count; ROS_DOMAIN_ID or 0 without it")
+  command->add_option("--domain", options->domain, "of DDS, in which they count; ROS_DOMAIN_ID or 0 without it")
       ->check(CLI::Range(0U, kMaxKeysDomain))
       ->option_text("N");
   command->callback([options] { runKeys(*options); });

@@ -31,7 +31,7 @@ struct SweepPart {
 
 struct SweepCall {
   std::string file, out, expect;
-  int jobs = 0;  // 0: as many as there are processors
+  std::optional<int> jobs;  // at a time; absent: as many as there are processors
   bool dry_run = false, status = false, finish = false, slurm = false;
   std::optional<SweepPart> part;
   std::string slurm_options;
@@ -134,7 +134,7 @@ void finish(const SweepRun& run) {
 
 // Within a job of Slurm as many as it has given.
 int jobsOf(const SweepCall& call) {
-  if (call.jobs > 0) return call.jobs;
+  if (call.jobs) return *call.jobs;
   if (std::getenv("SLURM_JOB_ID") == nullptr)
     return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const char* const given = std::getenv("SLURM_CPUS_PER_TASK");
@@ -174,7 +174,7 @@ SlurmSweep slurmOf(const SweepRun& run) {
   SlurmSweep slurm;
   slurm.command = {
       fs::read_symlink("/proc/self/exe").string(), "sweep", run.file, "--out", run.folder, "--expect", run.plan.name};
-  if (run.call.jobs > 0) slurm.command.insert(slurm.command.end(), {"--jobs", std::to_string(run.call.jobs)});
+  if (run.call.jobs) slurm.command.insert(slurm.command.end(), {"--jobs", std::to_string(*run.call.jobs)});
   slurm.name = "hl-" + fs::path(run.file).stem().string();
   slurm.folder = run.folder;
   slurm.options = run.call.slurm_options;

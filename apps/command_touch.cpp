@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/realtime.h"
 #include "base/utf8.h"
+#include "choice_option.h"
 #include "commands.h"
 #include "file_opener.h"
 #include "force_options.h"
@@ -111,20 +112,17 @@ void printTotals(TouchSession& session) {
 
 // What the options say of the session. Gives whether they leave it to the scene how smooth its surfaces feel.
 bool applyToSession(TouchOptions& options) {
-  options.settings.hand_firm = options.hand == "firm";
   // A scene file says how its surfaces feel; a bare model feels as smooth as it looks.
   const bool shade_unset = !options.settings.surfaces.smooth;
   if (!isSceneFile(options.scene.scene) && shade_unset) options.settings.surfaces.smooth = true;
-  options.settings.explore = options.explore == "on";
-  if (options.scale > 0) options.settings.world_per_device = options.scale;
+  if (options.scale) options.settings.world_per_device = *options.scale;
   if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
   return shade_unset;
 }
 
 TouchServerSettings serverSettings(const TouchOptions& options, std::vector<NamedDevice> devices,
                                    const Limits& limits) {
-  TouchServerSettings settings{options.settings, std::move(devices), limits, HL_VERSION,
-                               options.devices.faultsJoined()};
+  TouchServerSettings settings{options.settings, std::move(devices), limits, HL_VERSION, options.devices.faults_joined};
   RecorderSettings recorder = options.recorder;
   recorder.version = HL_VERSION;
   recorder.several = settings.devices.size() > 1;
@@ -140,8 +138,7 @@ TouchServerSettings serverSettings(const TouchOptions& options, std::vector<Name
 void runTouch(TouchOptions options) {
   const std::vector<NamedDevice> devices = devicesOf(options.devices);
   requireRecordable(options, devices);
-  options.scene.opens_files = options.upload == "on";
-  const auto snapshot = loadSnapshot(options.scene);
+  const auto snapshot = loadSnapshot(options.scene, options.upload ? LaterFiles::kMayCome : LaterFiles::kNone);
   const bool shade_unset = applyToSession(options);
   // hl record has all of the session in its file.
   if (options.recorder.file.empty()) options.recorder.pages = std::make_shared<PageRecordings>();
@@ -155,8 +152,8 @@ void runTouch(TouchOptions options) {
   TouchSession& session = touch.device();
   if (options.settings.script && !hasAnyHand(touch))
     throw Error("--hand-path moves a simulated hand, and a person holds this device");
-  FileOpener opener(touch, hierarchyOf(options.scene), options.scene.cad, shade_unset);
-  if (options.upload == "on") {
+  FileOpener opener(touch, options.scene.hierarchy, options.scene.cad, shade_unset);
+  if (options.upload) {
     http.upload.limit_bytes = kUpload_bytes;
     http.upload.open = [&](int descriptor, const std::string& name) { return opener.open(descriptor, name); };
   }
@@ -214,12 +211,8 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command.add_flag("--no-open", options.no_open, "do not start a browser");
-  command.add_option("--hand", options.hand, "grip of the simulated hand")
-      ->check(CLI::IsMember({"light", "firm"}))
-      ->capture_default_str();
-  command.add_option("--explore", options.explore, "the built-in stroking hand, until a person takes over")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str();
+  addGripOption(command, options.settings.hand_firm);
+  addSwitch(command, "--explore", options.settings.explore, "the built-in stroking hand, until a person takes over");
   command.add_option(
       "--hand-path", options.hand_path,
       "CSV t,x,y,z[,qw,qx,qy,qz][,gripper_rad] (s, m in the scene, rad) that the simulated hand follows instead");
@@ -232,14 +225,10 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   command.get_option("--shade")->option_text("flat|smooth (default: the scene's; smooth for model files)");
   addHierarchyOption(command, options.scene);
   addReadingOptions(command, options.scene);
-  command
-      .add_option(
-          "--upload", options.upload,
-          fmt::format("whether the page may open model files of its user, of {} MB at most, in the place of the "
-                      "scene",
-                      kUpload_bytes / 1'000'000))
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str();
+  addSwitch(
+      command, "--upload", options.upload,
+      fmt::format("whether the page may open model files of its user, of {} MB at most, in the place of the scene",
+                  kUpload_bytes / 1'000'000));
   command.add_option("--page-dir", options.page_folder, "folder of the built page, or of pages of your own")
       ->check(CLI::ExistingDirectory);
   command.add_option("--duration", options.duration_s, "end by itself after this many seconds")

@@ -1,6 +1,7 @@
 #include "device_options.h"
 
 #include "base/error.h"
+#include "choice_option.h"
 #include "record/replay_device.h"
 #include "session/touch_world.h"
 
@@ -30,12 +31,9 @@ void addDeviceOptions(CLI::App& command, DeviceOptions& options) {
       ->allow_extra_args(false)
       ->option_text("[NAME=]" + anyDeviceSpecs() + " (default: sim)")
       ->group(kDeviceGroup);
-  command
-      .add_option("--faults", options.faults,
-                  "apart: a device in fault leaves the others as they are; joined: none makes force while one is in "
-                  "fault, and to arm one is to arm all")
-      ->check(CLI::IsMember({"apart", "joined"}))
-      ->capture_default_str()
+  addChoice(command, "--faults", options.faults_joined, {{"apart", false}, {"joined", true}},
+            "apart: a device in fault leaves the others as they are; joined: none makes force while one is in "
+            "fault, and to arm one is to arm all")
       ->group(kDeviceGroup);
 }
 
@@ -47,13 +45,13 @@ void addSimulatedDevicesOption(CLI::App& command, DeviceOptions& options) {
 }
 
 std::vector<NamedDevice> devicesOf(const DeviceOptions& options) {
-  if (options.simulated > 0 && !options.given.empty())
-    throw Error("--devices " + std::to_string(options.simulated) +
+  if (options.simulated && !options.given.empty())
+    throw Error("--devices " + std::to_string(*options.simulated) +
                 " is for simulated devices alone: leave it out, and write --device once for each device");
   if (options.given.size() > TouchServerSettings::kMaxDevices)
     throw Error("there are " + std::to_string(options.given.size()) + " devices, and a server has at most " +
                 std::to_string(TouchServerSettings::kMaxDevices));
-  std::vector<NamedDevice> devices(options.simulated, NamedDevice{"", "sim"});
+  std::vector<NamedDevice> devices(options.simulated.value_or(0), NamedDevice{"", "sim"});
   for (const std::string& text : options.given) devices.push_back(parseNamedDevice(text));
   if (devices.empty()) devices.push_back({"", "sim"});
   return withNames(std::move(devices));

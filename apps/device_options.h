@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,9 @@
 namespace hl {
 
 struct DeviceOptions {
-  std::vector<std::string> given;  ///< as written after --device; none: one that is simulated
-  std::uint32_t simulated = 0;     ///< of --devices; 0: not given
-  std::string faults = "apart";
-
-  bool faultsJoined() const { return faults == "joined"; }
+  std::vector<std::string> given;          ///< as written after --device; none: one that is simulated
+  std::optional<std::uint32_t> simulated;  ///< how many simulated ones; absent: those that are given
+  bool faults_joined = false;              ///< a fault of one device stops all
 };
 
 /// --device and --faults. `options` must outlive `command`.

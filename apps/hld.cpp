@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <optional>
 
 #include "base/error.h"
 #include "base/realtime.h"
@@ -103,15 +104,12 @@ void serve(HldOptions& options) {
   giveFreedMemoryBack();
   lockProcessMemory();
   const sigset_t signals = blockSignals();
-  options.touch.hand_firm = options.hand == "firm";
-  options.touch.explore = options.explore == "on";
   options.recorder.version = HL_VERSION;
   const std::vector<NamedDevice> devices = devicesOf(options.devices);
   options.recorder.report = logFault;
   options.touch.sink = recorderWith(options.recorder);
   const HttpServerSettings http = serverSettings(options);
-  TouchServer touch(sceneOf(options),
-                    {options.touch, devices, http.limits, HL_VERSION, options.devices.faultsJoined()});
+  TouchServer touch(sceneOf(options), {options.touch, devices, http.limits, HL_VERSION, options.devices.faults_joined});
   TouchSession& session = touch.device();
   const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) {
     logEvent(LogLevel::kWarning, "ros", {{"reason", line}});
@@ -129,7 +127,7 @@ void serve(HldOptions& options) {
   server.start();
   logReady(options, touch, server.port());
   notifySystemd("READY=1");
-  int received = waitForSignal(signals);
+  std::optional<int> received = waitForSignal(signals);
   for (; received == SIGHUP; received = waitForSignal(signals)) reloadToken(server, options.token_file);
   logEvent(LogLevel::kInfo, "stopping", {{"reason", received == SIGINT ? "SIGINT" : "SIGTERM"}});
   notifySystemd("STOPPING=1");

@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 
+#include "choice_option.h"
 #include "force_options.h"
 #include "serving.h"
 #include "value_checks.h"
@@ -34,13 +35,9 @@ void addNetworkOptions(CLI::App& app, HldOptions& options) {
 void addHandOptions(CLI::App& app, HldOptions& options) {
   addDeviceOptions(app, options.devices);
   addSimulatedDevicesOption(app, options.devices);
-  app.add_option("--hand", options.hand, "grip of the simulated hand")
-      ->check(CLI::IsMember({"light", "firm"}))
-      ->capture_default_str()
-      ->group("Device");
-  app.add_option("--explore", options.explore, "the built-in stroking hand, until a person or a client takes over")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str()
+  addGripOption(app, options.touch.hand_firm)->group("Device");
+  addSwitch(app, "--explore", options.touch.explore,
+            "the built-in stroking hand, until a person or a client takes over")
       ->group("Device");
   app.add_option("--radius", options.touch.radius_D, "proxy radius in metres at the hand")
       ->check(within(kMinRadius_m, kMaxNumber))
@@ -113,6 +110,7 @@ void addLogOptions(CLI::App& app, HldOptions& options) {
 
 void addHldOptions(CLI::App& app, HldOptions& options) {
   options.scene.scene.clear();
+  options.touch.explore = false;
   app.set_config("--config", "", "read options from this file, one 'name = value' a line; the command line wins")
       ->check(plainFile());
   app.allow_config_extras(CLI::config_extras_mode::error);  // a misspelt name is no silent default

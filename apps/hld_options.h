@@ -24,8 +24,6 @@ struct HldOptions {
   ShareOptions share;
   std::string token_file;  ///< empty: no token
   DeviceOptions devices;
-  std::string hand = "light";
-  std::string explore = "off";
   LogFormat log_format = LogFormat::kKeyValue;
   LogLevel log_level = LogLevel::kInfo;
 };

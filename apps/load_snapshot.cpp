@@ -40,21 +40,21 @@ void requireMemory(const SceneModel& scene, const std::string& name, std::uint64
                             1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(there_bytes)));
 }
 
-std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
+std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options, LaterFiles later) {
   LoadOptions load;
   load.progress = showProgress;
   load.cad = options.cad;
   load.grid = options.grid;
   SceneModel scene = loadScene(options.scene, load);
-  if (options.below) setSolidSide(scene, *options.below ? SolidSide::kBelow : SolidSide::kAbove);
+  if (options.solid) setSolidSide(scene, *options.solid);
   if (!options.iso.empty()) setIsoValues(scene, options.iso);  // a value may have a surface on one side only
   if (options.surfels) setSurfels(scene, options.surfel_reach);
-  if (options.vertical_scale > 0) scaleHeights(scene, options.vertical_scale);
-  if (options.scale > 0) scaleModel(scene, options.scale);
-  if (options.fit > 0) fitModel(scene, options.fit);
+  if (options.vertical_scale) scaleHeights(scene, *options.vertical_scale);
+  if (options.scale) scaleModel(scene, *options.scale);
+  if (options.fit) fitModel(scene, *options.fit);
   requireMemory(scene, options.scene, machineMemory_bytes());
-  auto snapshot = makeSnapshot(std::move(scene), hierarchyOf(options));
-  if (!options.opens_files && !(options.cad == CadMeshing{})) requireCad(*snapshot, options.scene);
+  auto snapshot = makeSnapshot(std::move(scene), options.hierarchy);
+  if (later == LaterFiles::kNone && !(options.cad == CadMeshing{})) requireCad(*snapshot, options.scene);
   const std::string file = options.scene + ":";  // which those of a scene file begin with, and a line
   for (const std::string& warning : warningsOf(*snapshot))
     fmt::print(stderr, "{}\n", printable(warning.starts_with(file) ? warning : file + " " + warning));

@@ -11,8 +11,12 @@
 
 namespace hl {
 
-/// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error.
-std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options);
+/// Whether other files may take the place of the scene later. What is said of CAD files may be meant for these.
+enum class LaterFiles : std::uint8_t { kNone, kMayCome };
+
+/// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error, also where no file of
+/// the scene is what the options are for.
+std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options, LaterFiles later = LaterFiles::kNone);
 /// Throws hl::Error, with `name` in front, for a model that takes more than `there_bytes` of memory to make.
 void requireMemory(const SceneModel& scene, const std::string& name, std::uint64_t there_bytes);
 

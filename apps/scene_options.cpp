@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "builtin.h"
+#include "choice_option.h"
 #include "value_checks.h"
 
 namespace hl {
@@ -22,17 +23,10 @@ void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
   }
 }
 
-HierarchyKind hierarchyOf(const SceneOptions& options) {
-  for (const HierarchyKind kind : {HierarchyKind::kSpheres, HierarchyKind::kNone}) {
-    if (options.hierarchy == nameOf(kind)) return kind;
-  }
-  return HierarchyKind::kBvh;
-}
-
 void addHierarchyOption(CLI::App& command, SceneOptions& options) {
-  command.add_option("--hierarchy", options.hierarchy, "how primitives near the proxy are found")
-      ->check(CLI::IsMember({"bvh", "spheres", "none"}))
-      ->capture_default_str();
+  addChoice(command, "--hierarchy", options.hierarchy,
+            {{"bvh", HierarchyKind::kBvh}, {"spheres", HierarchyKind::kSpheres}, {"none", HierarchyKind::kNone}},
+            "how primitives near the proxy are found");
 }
 
 namespace {
@@ -63,7 +57,7 @@ void addReadingOptions(CLI::App& command, SceneOptions& options) {
       ->check(finite())
       ->option_text("FLOAT[,FLOAT]...");
   command.add_flag_function(
-      "--below", [&options](std::int64_t said) { options.below = said > 0; },
+      "--below", [&options](std::int64_t said) { options.solid = said > 0 ? SolidSide::kBelow : SolidSide::kAbove; },
       "the matter of a volume is where its values are below --iso, as of signed distances (--below=false: above, as in "
       "CT; default: what the file says, or above)");
   command
@@ -92,7 +86,7 @@ void requireNoReading(const SceneOptions& options) {
   const SceneOptions defaults;
   const std::pair<bool, const char*> said[] = {
       {!options.grid.empty(), "--grid"},      {!options.iso.empty(), "--iso"},
-      {options.below.has_value(), "--below"}, {options.vertical_scale > 0, "--vertical-scale"},
+      {options.solid.has_value(), "--below"}, {options.vertical_scale.has_value(), "--vertical-scale"},
       {options.surfels, "--surfels"},         {!(options.cad == defaults.cad), "--deflection"}};
   for (const auto& [is_said, name] : said) {
     if (is_said) throw Error(std::string(name) + " says how a scene is read, and there is none: say it with --scene");

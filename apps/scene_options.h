@@ -9,22 +9,22 @@
 
 #include "io/cad_file.h"
 #include "scene/shape.h"
+#include "surfaces/iso_cells.h"
 
 namespace hl {
 
 struct SceneOptions {
   std::string scene = "teapot";
-  std::string hierarchy = "bvh";
-  double scale = 0;            ///< metres per file unit; 0: as it is
-  double fit = 0;              ///< m, largest side; 0: as it is
-  std::string grid;            ///< of a file with several grids, by its name
-  std::vector<double> iso;     ///< of volumes; empty: one that is chosen
-  std::optional<bool> below;   ///< whether the matter of volumes is below iso; nothing: as the scene says
-  double vertical_scale = 0;   ///< of the heights of height fields; 0: as they are
-  bool surfels = false;        ///< of clouds, in place of points
-  double surfel_reach = 0.75;  ///< in spacings
-  CadMeshing cad;              ///< of CAD files
-  bool opens_files = false;    ///< others, later on
+  HierarchyKind hierarchy = HierarchyKind::kBvh;
+  std::optional<double> scale;           ///< metres per file unit; absent: as it is
+  std::optional<double> fit;             ///< m, largest side; absent: as it is
+  std::string grid;                      ///< of a file with several grids, by its name
+  std::vector<double> iso;               ///< of volumes; empty: one that is chosen
+  std::optional<SolidSide> solid;        ///< where the matter of volumes is; absent: as the scene says
+  std::optional<double> vertical_scale;  ///< of the heights of height fields; absent: as they are
+  bool surfels = false;                  ///< of clouds, in place of points
+  double surfel_reach = 0.75;            ///< in spacings
+  CadMeshing cad;                        ///< of CAD files
   bool operator==(const SceneOptions&) const = default;
 };
 
@@ -39,6 +39,5 @@ void addSizeOptions(CLI::App& command, SceneOptions& options);
 
 /// Throws hl::Error if there is no scene, and an option says how it is to be read.
 void requireNoReading(const SceneOptions& options);
-HierarchyKind hierarchyOf(const SceneOptions& options);
 
 }  // namespace hl

@@ -3,7 +3,6 @@
 #include <malloc.h>
 #include <time.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <utility>
@@ -31,15 +30,16 @@ sigset_t blockSignals() {
   return signals;
 }
 
-int waitForSignal(const sigset_t& signals, double longest_s) {
-  if (longest_s <= 0) {
+std::optional<int> waitForSignal(const sigset_t& signals, std::optional<double> longest_s) {
+  if (!longest_s) {
     int received = 0;
     sigwait(&signals, &received);
     return received;
   }
-  const auto whole = static_cast<time_t>(longest_s);
-  const timespec limit{whole, static_cast<long>(1e9 * (longest_s - static_cast<double>(whole)))};
-  return std::max(0, sigtimedwait(&signals, nullptr, &limit));
+  const auto whole = static_cast<time_t>(*longest_s);
+  const timespec limit{whole, static_cast<long>(1e9 * (*longest_s - static_cast<double>(whole)))};
+  const int received = sigtimedwait(&signals, nullptr, &limit);
+  return received > 0 ? std::optional(received) : std::nullopt;
 }
 
 ViewerFeedSettings pageOf(TouchServer& server, ReadShare share) {

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "page/viewer_feed.h"
@@ -20,8 +21,8 @@ void giveFreedMemoryBack();
 /// is ignored. Call it before any thread is started.
 sigset_t blockSignals();
 
-/// The next of `signals`; 0 when `longest_s` > 0 and none came in that time.
-int waitForSignal(const sigset_t& signals, double longest_s = 0);
+/// The next of `signals`; nothing when none came in `longest_s`, where that is given.
+std::optional<int> waitForSignal(const sigset_t& signals, std::optional<double> longest_s = std::nullopt);
 
 /// The built page: viewer/dist (as built) or share/hl/viewer (as installed) in a folder above the program.
 std::string defaultPageFolder();

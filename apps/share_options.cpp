@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "choice_option.h"
 #include "dds_options.h"
 #include "share/share_process.h"
 #include "value_checks.h"
@@ -13,6 +14,8 @@
 namespace hl {
 
 namespace {
+
+constexpr const char* kGroupOfWorlds = "Shared worlds";
 
 std::string machineName() {
   std::array<char, 256> name{};
@@ -35,22 +38,24 @@ CLI::Validator shareName() {
 }  // namespace
 
 void addShareOptions(CLI::App& app, ShareOptions& options) {
-  const auto add = [&](const char* name, auto& value, const char* what, const char* text) {
-    return app.add_option(name, value, what)->needs("--share")->option_text(text)->group("Shared worlds");
-  };
   app.add_option("--share", options.world,
                  "share the scene and the hands with the other servers of this world, in the domain ROS_DOMAIN_ID: "
                  "needs hl-share")
       ->check(shareName())
       ->option_text("WORLD")
-      ->group("Shared worlds");
-  add("--share-name", options.name, "what this server is called there, one in the world (default: as the machine is)",
-      "NAME")
+      ->group(kGroupOfWorlds);
+  app.add_option("--share-name", options.name,
+                 "what this server is called there, one in the world (default: as the machine is)")
+      ->needs("--share")
+      ->option_text("NAME")
+      ->group(kGroupOfWorlds)
       ->check(shareName());
-  add("--share-adopt", options.adopt, "whether it takes over what a server leaves behind that is lost [on]", "on|off")
-      ->check(CLI::IsMember({"on", "off"}));
+  addSwitch(app, "--share-adopt", options.adopt, "whether it takes over what a server leaves behind that is lost [on]")
+      ->needs("--share")
+      ->option_text("on|off")
+      ->group(kGroupOfWorlds);
   addReachOptions(app, options.reach, kShareUse,
-                  {"Shared worlds", "keys: only those with keys of the same authority are in the world; see hl keys",
+                  {kGroupOfWorlds, "keys: only those with keys of the same authority are in the world; see hl keys",
                    "network interface to the other servers"});
 }
 
@@ -59,7 +64,7 @@ std::unique_ptr<ShareBridge> makeShareBridge(const ShareOptions& options, TouchS
   if (options.world.empty()) return nullptr;
   checkReach(options.reach, kShareUse);
   const std::string name = options.name.empty() ? shareNameLike(machineName()) : options.name;
-  const ShareSelf self{randomId(), name, options.adopt == "on", HL_VERSION};
+  const ShareSelf self{randomId(), name, options.adopt, HL_VERSION};
   const ShareTask task{HL_VERSION, ddsDomain(), options.world, self.id, options.reach};
   return std::make_unique<ShareBridge>(std::make_unique<ShareProcess>(task), options.world, self, server,
                                        std::move(report));

@@ -14,7 +14,7 @@ namespace hl {
 struct ShareOptions {
   std::string world;  ///< empty: none is shared
   std::string name;   ///< of this server in it; empty: as the machine is called
-  std::string adopt = "on";
+  bool adopt = true;  ///< takes over what a lost server leaves behind
   DdsReach reach;
 };
 

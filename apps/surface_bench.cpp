@@ -32,9 +32,9 @@ SurfaceBench::SurfaceBench(const SurfaceBenchOptions& options) : options_(option
 }
 
 void SurfaceBench::measure(const BenchSurface& surface, const Snapshot& scene) {
-  const bool holds = options_.radius_m >= kHolds * surface.cell_m;
+  const bool holds = !surface.cell_m || options_.radius_m >= kHolds * *surface.cell_m;
   if (holds) measure(surface, scene, options_.radius_m);
-  if (surface.cell_m > 0) measure(surface, scene, kZoomedCells * surface.cell_m);
+  if (surface.cell_m) measure(surface, scene, kZoomedCells * *surface.cell_m);
 }
 
 void SurfaceBench::measure(const BenchSurface& surface, const Snapshot& scene, double radius_m) {

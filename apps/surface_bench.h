@@ -29,7 +29,7 @@ struct BenchSurface {
   double stored = 0;  ///< samples or points in memory; 0: none
   double bytes = 0, open_s = 0;
   std::optional<double> change_ms{};  ///< to change it while it is touched: another iso value, the next frame
-  double cell_m = 0;                  ///< about the distance between its samples; 0: it has none
+  std::optional<double> cell_m{};     ///< about the distance between its samples; absent: it has none
 };
 
 class SurfaceBench {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "device_options.h"
@@ -21,14 +22,12 @@ struct TouchOptions {
   ShareOptions share;
   DeviceOptions devices;
   int port = 1997;
-  bool no_open = false;
-  std::string hand = "light";
-  std::string explore = "on";
+  bool no_open = false;  ///< no browser
   std::string hand_path;
-  std::string upload = "on";
+  bool upload = true;  ///< pages may open files
   std::string page_folder;
-  double scale = 0;
-  double duration_s = 0;
+  std::optional<double> scale;       ///< metres of the scene for one of the hand; absent: settings.side_D decides
+  std::optional<double> duration_s;  ///< absent: until a signal comes
 };
 
 /// `options` must outlive `command`.
