@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "bodies/scene_world.h"
 #include "scene/by_key.h"
+#include "scene/editable_scene.h"
+#include "scene/follow_on.h"
 #include "session/check_bodies.h"
 #include "session/decode_frame.h"
 #include "session/message_size.h"

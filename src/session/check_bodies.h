@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/editable_scene.h"
+#include "scene/placed_shape.h"
 
 namespace hl {
 

@@ -7,7 +7,8 @@
 
 #include "base/memory_budget.h"
 #include "io/decode_scene.h"
-#include "scene/editable_scene.h"
+#include "scene/placed_joints.h"
+#include "scene/scene_limits.h"
 
 namespace hl {
 

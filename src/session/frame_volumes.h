@@ -9,7 +9,7 @@
 
 #include "base/memory_budget.h"
 #include "io/decode_volumes.h"
-#include "scene/editable_scene.h"
+#include "scene/scene_limits.h"
 
 namespace hl {
 

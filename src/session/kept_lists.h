@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/editable_scene.h"
+#include "scene/placed_shape.h"
 
 namespace hl {
 

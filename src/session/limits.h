@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "base/machine_memory.h"
-#include "scene/editable_scene.h"
+#include "scene/scene_limits.h"
 
 namespace hl {
 

@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/guarded_thread.h"
+#include "scene/follow_on.h"
 #include "scene/iso_shape.h"
 #include "session/check_bodies.h"
 #include "session/client_scene.h"

@@ -22,7 +22,8 @@
 #include <vector>
 
 #include "base/memory_budget.h"
-#include "scene/editable_scene.h"
+#include "scene/placed_shape.h"
+#include "scene/scene_limits.h"
 #include "session/base_scene.h"
 #include "session/client_scene.h"
 #include "session/touching_loops.h"

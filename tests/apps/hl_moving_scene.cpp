@@ -20,6 +20,7 @@
 #include "page/viewer_feed.h"
 #include "scene/by_key.h"
 #include "scene/editable_scene.h"
+#include "scene/follow_on.h"
 #include "touch/touch_session.h"
 
 namespace hl {

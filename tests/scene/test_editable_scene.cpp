@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "geometry/scenes.h"
 #include "scene/by_key.h"
+#include "scene/follow_on.h"
 #include "surfaces/depth_frame.h"
 #include "surfaces/iso_surface.h"
 

@@ -11,6 +11,7 @@
 #include "base/realtime_guard.h"
 #include "scene/by_key.h"
 #include "scene/editable_scene.h"
+#include "scene/follow_on.h"
 
 namespace hl::test_proxy_loop {
 namespace {
