@@ -45,32 +45,33 @@ void Constraints::nearestTo(const Vec3& gap, Proposal& proposal) {
 }
 
 void Constraints::addCuts(const Vec3& position, const Vec3& gap, double slid_m, Proposal& proposal) {
-  const bool counts = !cuts_.empty() && cuts_in_a_row_ < convergence::kMaxCutsInARow &&
-                      solveWithCuts(position, gap, slid_m, proposal.step);
-  if (counts) proposal.rule = Proposal::Rule::kCuts;
-  cuts_in_a_row_ = counts ? cuts_in_a_row_ + 1 : 0;
+  std::optional<Vec3> step;
+  if (!cuts_.empty() && cuts_in_a_row_ < convergence::kMaxCutsInARow) step = stepAboveCuts(position, gap, slid_m);
+  cuts_in_a_row_ = step ? cuts_in_a_row_ + 1 : 0;
+  if (!step) return;
+  proposal.rule = Proposal::Rule::kCuts;
+  proposal.step = *step;
 }
 
-// Returns false if no cut is active; if the step is so short that the proxy should come down to the surface; and,
+// Nothing if no cut is active; if the step is so short that the proxy should come down to the surface; and,
 // without contacts, if the step is much longer than the way slid since the last contact, as it would usually end at
 // once at a new primitive.
-bool Constraints::solveWithCuts(const Vec3& position, const Vec3& gap, double slid_m, Vec3& step) {
+std::optional<Vec3> Constraints::stepAboveCuts(const Vec3& position, const Vec3& gap, double slid_m) {
   RecentCuts::Planes planes;
   for (const Plane& plane : set_.planes) {
-    if (!planes.push(plane)) return false;
+    if (!planes.push(plane)) return std::nullopt;
   }
   const std::size_t own = planes.size();
-  if (cuts_.addPlanes(input_.scene, position, input_.tolerance.reach, planes) == 0) return false;
+  if (cuts_.addPlanes(input_.scene, position, input_.tolerance.reach, planes) == 0) return std::nullopt;
   const SolverResult all = nearestAbove({planes.begin(), planes.size()}, gap, input_.tolerance.feasible);
   const auto* const active_end = all.active.begin() + static_cast<std::ptrdiff_t>(all.active_count);
   const bool counts = std::any_of(all.active.begin(), active_end, [&](std::size_t i) { return i >= own; });
   const double length = all.point.norm();
   if (!counts || all.violation > input_.tolerance.feasible || length <= convergence::kMinCutPerGap * gap.norm())
-    return false;
-  if (!touches() && length >= convergence::kMaxCutPerSlid * slid_m) return false;
+    return std::nullopt;
+  if (!touches() && length >= convergence::kMaxCutPerSlid * slid_m) return std::nullopt;
   cuts_.keepActive();
-  step = all.point;
-  return true;
+  return all.point;
 }
 
 }  // namespace hl

@@ -7,6 +7,8 @@
 // to within Tolerances::feasible. The step ends no farther from the goal.
 #pragma once
 
+#include <optional>
+
 #include "base/vec.h"
 #include "proxy/contacts.h"
 #include "proxy/proposal.h"
@@ -42,7 +44,7 @@ class Constraints {
 
  private:
   bool strays(const Vec3& gap) const;
-  bool solveWithCuts(const Vec3& position, const Vec3& gap, double slid_m, Vec3& step);
+  std::optional<Vec3> stepAboveCuts(const Vec3& position, const Vec3& gap, double slid_m);
 
   const TickInput& input_;
   ContactSet set_;

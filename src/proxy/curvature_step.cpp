@@ -91,21 +91,23 @@ bool staysAbove(const ContactSet& set, const Vec3& step, double tolerance) {
 
 }  // namespace
 
-bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal,
-                   const Tolerances& tolerance, double boldness, Vec3& step) {
+std::optional<Vec3> curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal,
+                                  const Tolerances& tolerance, double boldness) {
   const double reach = tolerance.reach;
   const Vec3& plain = proposal.point;
   const auto contact = [&](std::size_t i) -> const Contact& { return set.contacts[proposal.active[i]]; };
   const auto curved = [&](std::size_t i) { return contact(i).feature != Feature::kFace; };
+  Vec3 step;
   if (proposal.active_count == 1 && curved(0)) {
     step = onSurface(set, scene, contact(0), proposal.multiplier[0], plain, reach, boldness);
   } else if (proposal.active_count == 2 && (curved(0) || curved(1))) {
     step = onCurve(set, scene, proposal, reach, boldness);
   } else {
-    return false;
+    return std::nullopt;
   }
-  return step.allFinite() && (step - plain).norm() > convergence::kWorthwhile * plain.norm() &&
-         staysAbove(set, step, tolerance.feasible);
+  const bool counts = step.allFinite() && (step - plain).norm() > convergence::kWorthwhile * plain.norm() &&
+                      staysAbove(set, step, tolerance.feasible);
+  return counts ? std::optional(step) : std::nullopt;
 }
 
 }  // namespace hl

@@ -10,6 +10,7 @@
 // primitive that shares the edge or vertex is the nearest. The same holds along the curve in which two obstacles meet.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "geometry/primitive.h"
@@ -19,9 +20,9 @@
 
 namespace hl {
 
-/// The step, if an active contact is curved and the curvature matters; else returns false. `boldness`: the fraction of
-/// Newton's step to use, 1, or less after failures. RT-safe.
-bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal,
-                   const Tolerances& tolerance, double boldness, Vec3& step);
+/// The step, if an active contact is curved and the curvature matters. `boldness`: the fraction of Newton's step to
+/// use, 1, or less after failures. RT-safe.
+std::optional<Vec3> curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal,
+                                  const Tolerances& tolerance, double boldness);
 
 }  // namespace hl

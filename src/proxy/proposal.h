@@ -39,17 +39,28 @@ struct Proposal {
     kStays,    ///< the same, and there every contact is on the same face as now
   };
 
+  /// What friction and viscosity do to the step.
+  enum class Resistance : std::uint8_t {
+    kNone,
+    kActs,       ///< the proxy slips less than it is pulled, or sticks
+    kPreslides,  ///< static friction holds it, on its pre-sliding springs
+  };
+
   Rule rule = Rule::kPlain;
   Rest rest = Rest::kGoesOn;
-  bool may_raise_energy = false;  ///< the step is not plain descent: it may raise the spring's energy
-  bool resisted = false;          ///< friction or viscosity act on it
-  bool preslides = false;         ///< static friction holds the proxy, on its pre-sliding springs
+  Resistance resistance = Resistance::kNone;
+  bool may_raise_energy = false;  ///< shading turns the planes: the step may raise the spring's energy
   Vec3 step = Vec3::Zero();
   FixedVector<ActiveContact, kMaxActive> active;
   double shading = 0, bump = 0;  ///< the largest turns of the active shading normals, as in ShadingNormal
   double viscous = 0;            ///< pull used up by viscosity per metre of the step
   double presliding_ratio = 0;   ///< SlipResistance::presliding_ratio
   Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
+
+  bool preslides() const { return resistance == Resistance::kPreslides; }
+  /// Whether the step never raises the spring's energy, if the goal is the finger. Other steps are paid for
+  /// (energy_booking.h).
+  bool descends() const { return !may_raise_energy && !preslides(); }
 };
 
 }  // namespace hl

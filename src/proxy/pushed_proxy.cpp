@@ -1,23 +1,27 @@
 #include "proxy/pushed_proxy.h"
 
+#include <optional>
+
 #include "proxy/element_motion.h"
 
 namespace hl {
 
 namespace {
 
-// Finds the primitive of the carrier nearest to the proxy, and its nearest point. Returns false if the carrier does not
-// touch the proxy.
-bool touchedOfCarrier(const PushedProxy& proxy, const SceneAt& scene, PrimitiveId& touched, ClosestPoint& nearest) {
-  bool found = false;
+struct CarrierTouch {
+  PrimitiveId primitive;
+  ClosestPoint nearest;
+};
+
+// Where the carrier touches the proxy, if it does: its nearest primitive.
+std::optional<CarrierTouch> touchOfCarrier(const PushedProxy& proxy, const SceneAt& scene) {
+  std::optional<CarrierTouch> found;
   const double touching = accuracy::kTouchingDeforming * proxy.tolerance.reach;
   scene.primitivesWithin(proxy.position, touching, [&](PrimitiveId id, const ClosestPoint& place) {
     if (id.instance != proxy.carrier) return;
-    if (found && place.distance > nearest.distance) return;
-    if (found && place.distance == nearest.distance && !scene.precedes(id, touched)) return;
-    found = true;
-    touched = id;
-    nearest = place;
+    if (found && place.distance > found->nearest.distance) return;
+    if (found && place.distance == found->nearest.distance && !scene.precedes(id, found->primitive)) return;
+    found = {id, place};
   });
   return found;
 }
@@ -25,10 +29,9 @@ bool touchedOfCarrier(const PushedProxy& proxy, const SceneAt& scene, PrimitiveI
 // Displacement of the carrier's contact point until `time_ns` by the deformation of its mesh; frame of the carrier.
 Vec3 deformedBy(const PushedProxy& proxy, const MeshTransition& way, std::int64_t time_ns) {
   const SceneAt scene = proxy.scene();
-  PrimitiveId held;
-  ClosestPoint nearest;
-  if (!touchedOfCarrier(proxy, scene, held, nearest)) return Vec3::Zero();
-  return displacementOf_O(scene, way, held, nearest.weights, proxy.now_ns, time_ns);
+  const std::optional<CarrierTouch> held = touchOfCarrier(proxy, scene);
+  if (!held) return Vec3::Zero();
+  return displacementOf_O(scene, way, held->primitive, held->nearest.weights, proxy.now_ns, time_ns);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "proxy/tolerances.h"
 
@@ -27,30 +28,29 @@ struct Candidate {
 
 // The line in which plane a intersects plane j: normal . z = offset for x = origin + z; unit normal within plane j.
 struct Line {
-  Vec3 normal = Vec3::Zero();
-  double offset = 0;
-  bool exists = false;
+  Vec3 normal;
+  double offset;
 };
 
-Line cut(const Plane& j, const Plane& a, const Vec3& origin) {
+// Nothing for parallel planes.
+std::optional<Line> cut(const Plane& j, const Plane& a, const Vec3& origin) {
   const double s = a.normal.dot(j.normal) < 0 ? -1.0 : 1.0;
   const Vec3 u = a.normal - s * j.normal;
   const Vec3 m = u - u.dot(j.normal) * j.normal;
   const double length = m.norm();
-  if (length < accuracy::kParallel) return {};
-  return {m / length, (a.offset - s * j.offset - u.dot(origin)) / length, true};
+  if (length < accuracy::kParallel) return std::nullopt;
+  return Line{m / length, (a.offset - s * j.offset - u.dot(origin)) / length};
 }
 
-// Intersection of two lines of plane j, relative to their origin.
-bool cross(const Line& a, const Line& b, const Vec3& plane_normal, Vec3& z) {
+// Intersection of two lines of plane j, relative to their origin. Nothing for parallel ones.
+std::optional<Vec3> crossing(const Line& a, const Line& b, const Vec3& plane_normal) {
   const Vec3 along = plane_normal.cross(a.normal);
   const double s = b.normal.dot(a.normal) < 0 ? -1.0 : 1.0;
   const Vec3 w = b.normal - s * a.normal;
   const double sine = w.dot(along);
-  if (std::abs(sine) < accuracy::kParallel) return false;
+  if (std::abs(sine) < accuracy::kParallel) return std::nullopt;
   const Vec3 foot = a.offset * a.normal;
-  z = foot + ((b.offset - s * a.offset - w.dot(foot)) / sine) * along;
-  return true;
+  return foot + ((b.offset - s * a.offset - w.dot(foot)) / sine) * along;
 }
 
 // Solves d = sum lambda_i n_i for the normals of a set by cross products (Cramer's rule), accurate also for nearly
@@ -127,17 +127,16 @@ Candidate solveWith(std::span<const Plane> planes, const ActiveSet& basis, std::
   if (count == 0) return {origin, {j, 0, 0}, 1};
   Best best(planes, basis, count, goal, tolerance);
   best.offer({origin, {j, 0, 0}, 1});
-  std::array<Line, 3> lines;
+  std::array<std::optional<Line>, 3> lines;
   for (std::size_t i = 0; i < count; ++i) {
     lines[i] = cut(plane, planes[basis[i]], origin);
-    if (lines[i].exists) best.offer({origin + lines[i].offset * lines[i].normal, {j, basis[i], 0}, 2});
+    if (lines[i]) best.offer({origin + lines[i]->offset * lines[i]->normal, {j, basis[i], 0}, 2});
   }
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = i + 1; k < count; ++k) {
-      Vec3 z;
-      if (lines[i].exists && lines[k].exists && cross(lines[i], lines[k], plane.normal, z)) {
-        best.offer({origin + z, {j, basis[i], basis[k]}, 3});
-      }
+      if (!lines[i] || !lines[k]) continue;
+      if (const std::optional<Vec3> z = crossing(*lines[i], *lines[k], plane.normal))
+        best.offer({origin + *z, {j, basis[i], basis[k]}, 3});
     }
   }
   return best.candidate();

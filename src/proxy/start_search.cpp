@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "proxy/clear_place.h"
 #include "proxy/contacts.h"
@@ -40,22 +41,17 @@ const Contact& nearestBut(const ContactSet& set, std::size_t nearer) {
   return *sorted[nearer];
 }
 
-// Candidate `number` for the finger, whose contacts are `set`. Returns false if it does not exist.
-bool placeOf(int number, const ContactSet& set, double reach, const Vec3& finger, Vec3& place) {
-  if (number == 0) {
-    place = finger;
-    return true;
-  }
+// Candidate `number` for the finger, whose contacts are `set`, if there is such a one.
+std::optional<Vec3> placeOf(int number, const ContactSet& set, double reach, const Vec3& finger) {
+  if (number == 0) return finger;
   if (number <= kBeyond) {
     const auto nearer = static_cast<std::size_t>(number - 1);
-    if (nearer >= set.contacts.size()) return false;
+    if (nearer >= set.contacts.size()) return std::nullopt;
     const Contact& contact = nearestBut(set, nearer);
-    place = contact.point - reach * contact.plane.normal;
-    return true;
+    return contact.point - reach * contact.plane.normal;
   }
   const int around = number - 1 - kBeyond;
-  place = finger + reach * sphereRadius(around / kDirections) * directionOf(around % kDirections);
-  return true;
+  return finger + reach * sphereRadius(around / kDirections) * directionOf(around % kDirections);
 }
 
 }  // namespace
@@ -69,10 +65,10 @@ bool StartSearch::look(const SceneAt& scene, const Tolerances& tolerance, const 
   position = finger;
   bool found = set.contacts.empty();
   for (int i = 0; i < places && !found; ++i) {
-    Vec3 place;
     const int pushes = next_ == 0 ? convergence::kPushesOfFinger : convergence::kPushesOfPlace;
-    found = placeOf(next_, set, tolerance.reach, finger, place) && findClearPlace(scene, tolerance, pushes, place);
-    if (found) position = place;
+    std::optional<Vec3> place = placeOf(next_, set, tolerance.reach, finger);
+    found = place && findClearPlace(scene, tolerance, pushes, *place);
+    if (found) position = *place;
     next_ = (next_ + 1) % kPlaces;
   }
   if (found) next_ = 0;

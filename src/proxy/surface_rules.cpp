@@ -121,11 +121,12 @@ Vec3 SurfaceRules::slip(FrictionOnWay& resistance, const SlipResistance& drag, c
 // surface that the proxy now touches.
 Vec3 SurfaceRules::resistedStep(FrictionOnWay resistance, const Vec3& way, double slipped_now,
                                 Proposal& proposal) const {
+  using Resistance = Proposal::Resistance;
   proposal.viscous = proposal.presliding_ratio = 0;
-  proposal.preslides = false;
   const SlipResistance drag = resistance.here();
-  proposal.resisted = resistance.slipTextured() || drag.viscous > 0 || drag.staticPull() > 0;
-  if (!proposal.resisted) return way;
+  const bool acts = resistance.slipTextured() || drag.viscous > 0 || drag.staticPull() > 0;
+  proposal.resistance = acts ? Resistance::kActs : Resistance::kNone;
+  if (!acts) return way;
   proposal.presliding_ratio = drag.presliding_ratio;
   const Slip before{slip_.length + slipped_now, slip_.viscous_m + drag.viscous * slipped_now};
   const bool stuck = !slipping_ && slipped_now == 0;
@@ -133,7 +134,7 @@ Vec3 SurfaceRules::resistedStep(FrictionOnWay resistance, const Vec3& way, doubl
                     ? Vec3((way - drag.presliding_ratio * presliding_m_) / (1 + drag.presliding_ratio))
                     : Vec3(Vec3::Zero());
   if (stuck && (way - offset).norm() <= drag.staticPull() + before.viscous_m) {
-    proposal.preslides = drag.presliding_ratio > 0;
+    if (drag.presliding_ratio > 0) proposal.resistance = Resistance::kPreslides;
     return offset;
   }
   return slip(resistance, drag, way, before, proposal);
@@ -179,7 +180,7 @@ void SurfaceRules::listActive(const TouchedSet& touched, const SolverResult& hel
 // further pass would not move the proxy.
 bool SurfaceRules::slipsAtOnce(const TouchedSet& touched, const Proposal& proposal) const {
   const auto changes = [](const Touched& now) { return now.shaded || now.friction.slipTextured(); };
-  return proposal.resisted && !proposal.preslides && touched.size() <= convergence::kFewContacts &&
+  return proposal.resistance == Proposal::Resistance::kActs && touched.size() <= convergence::kFewContacts &&
          std::none_of(touched.begin(), touched.end(), changes);
 }
 
@@ -198,7 +199,7 @@ bool SurfaceRules::staysOnFaces(const ContactSet& set, const TouchedSet& touched
 Vec3 SurfaceRules::toStep(const ContactSet& set, const Vec3& goal, const SolverResult& held,
                           const Proposal& proposal) const {
   if (proposal.may_raise_energy && held.active_count > 0) return secondPass(set, goal);
-  return proposal.may_raise_energy || proposal.preslides ? aboveTruePlanes(set, goal) : goal;
+  return proposal.descends() ? goal : aboveTruePlanes(set, goal);
 }
 
 // The passes are repeated here with the same contacts, which needs no search. Each pass leaves a fraction sin^2(beta) +
@@ -245,7 +246,7 @@ void SurfaceRules::propose(const ContactSet& set, const Vec3& position, const Ve
 void SurfaceRules::moved(const Proposal& proposal, const Vec3& step) {
   const double length = step.norm();
   if (!(length > 0)) return;
-  if (proposal.preslides) {
+  if (proposal.preslides()) {
     presliding_m_ += step;
     return;
   }

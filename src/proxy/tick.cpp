@@ -1,6 +1,7 @@
 #include "proxy/tick.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "proxy/curvature_step.h"
 #include "proxy/spring_energy.h"
@@ -99,7 +100,8 @@ void Tick::proposePlain() {
 
 void Tick::proposeFelt() {
   rules_.propose(constraints_.set(), state_.position, input_.gap(state_.position), proposal_);
-  if (!proposal_.may_raise_energy && !proposal_.resisted) return proposePlain();  // only the true planes act here
+  const bool resisted = proposal_.resistance != Proposal::Resistance::kNone;
+  if (!proposal_.may_raise_energy && !resisted) return proposePlain();  // only the true planes act here
   if (proposal_.may_raise_energy && input_.settings.shading == ShadingPasses::kOnce)
     aimAt(state_.position + proposal_.step);
 }
@@ -131,12 +133,12 @@ bool Tick::tryCurvedStep() {
     return false;
   const ContactSet& set = constraints_.set();
   const double plain_m = plain.point.norm();
-  Vec3 step;
-  if (!curvatureStep(set, input_.scene, plain, input_.tolerance, trial_.boldness(), step)) return false;
-  if (!trial_.mayBegin(step.norm() / plain_m)) return false;
+  const std::optional<Vec3> step = curvatureStep(set, input_.scene, plain, input_.tolerance, trial_.boldness());
+  if (!step || !trial_.mayBegin(step->norm() / plain_m)) return false;
   Vec3 there = state_.position;
   // A step that is stopped by an impact counts only if it went farther than the plain step would.
-  if (!walk_.go(set, true, step, there) && (there - state_.position).norm() <= plain_m) return false;
+  const Walk::Made made = walk_.go(set, Walk::Along::kSurface, *step, there);
+  if (made == Walk::Made::kPart && (there - state_.position).norm() <= plain_m) return false;
   trial_.begin(state_.position);
   state_.position = there;
   return true;
@@ -146,12 +148,13 @@ bool Tick::tryCurvedStep() {
 void Tick::advance() {
   const ContactSet& set = constraints_.set();
   const Vec3 from = state_.position;
-  const bool along = constraints_.touches() || proposal_.rule == Proposal::Rule::kCuts;
-  const bool paid = proposal_.may_raise_energy || proposal_.preslides || !goal_.isFinger();
-  const Vec3 step = paid ? booking_.afford(from, proposal_.step) : proposal_.step;
+  const bool follows = constraints_.touches() || proposal_.rule == Proposal::Rule::kCuts;
+  const Walk::Along along = follows ? Walk::Along::kSurface : Walk::Along::kAir;
+  const bool is_free = proposal_.descends() && goal_.isFinger();
+  const Vec3 step = is_free ? proposal_.step : booking_.afford(from, proposal_.step);
   bool whole = false;
-  if (along || !goal_.isFinger()) {
-    whole = walk_.go(set, along, step, state_.position);
+  if (follows || !goal_.isFinger()) {
+    whole = walk_.go(set, along, step, state_.position) == Walk::Made::kWhole;
   } else {
     walk_.fly(set, state_.position);
   }

@@ -8,6 +8,8 @@
 // Invariant: the proxy's centre stays at least Tolerances::swept away from all primitives that are not contacts.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 
 #include "base/vec.h"
@@ -21,14 +23,18 @@ namespace hl {
 /// For one tick. World frame. RT-safe.
 class Walk {
  public:
+  /// What a step follows. Along a surface what it meets is known from the steps before, more often than not.
+  enum class Along : std::uint8_t { kAir, kSurface };
+  /// How much of a step was made.
+  enum class Made : std::uint8_t { kWhole, kPart };
+
   Walk(const TickInput& input, ProxyCache& cache)
       : input_(input), cache_(cache), leg_m_(convergence::kFirstLegPerReach * input.tolerance.reach) {
     cache.ahead.follow(input.finger);
   }
 
-  /// Moves `position` by `step`, by the first leg of it, or up to the first impact. `along`: the step follows a
-  /// surface. Returns whether the whole step was made.
-  bool go(const ContactSet& set, bool along, const Vec3& step, Vec3& position);
+  /// Moves `position` by `step`, by the first leg of it, or up to the first impact.
+  Made go(const ContactSet& set, Along along, const Vec3& step, Vec3& position);
   /// Without contacts: moves to the finger, or up to the first impact.
   void fly(const ContactSet& set, Vec3& position);
 
@@ -37,10 +43,15 @@ class Walk {
   double slid_m() const { return slid_m_; }
 
  private:
-  double likelyWay_m(bool along) const;
-  bool cacheAnswers(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
-                    std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out);
-  bool firstImpact(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion, SceneImpact& out);
+  struct FromCache {
+    bool suffices = false;  // false: what is not in the cache may be met
+    std::optional<SceneImpact> impact{};
+  };
+
+  double likelyWay_m(Along along) const;
+  FromCache askCache(const ContactSet& set, Along along, const Vec3& from, const Vec3& motion,
+                     std::span<const PrimitiveId> contacts);
+  std::optional<SceneImpact> firstImpact(const ContactSet& set, Along along, const Vec3& from, const Vec3& motion);
 
   const TickInput& input_;
   ProxyCache& cache_;

@@ -99,7 +99,7 @@ TEST(SurfaceRules, AFloorLetsTheProxySlipByTheFormula) {
     const double slip = std::max(0.0, pull - 0.3 * depth) / (1 + 2 / (kK * settings.period_s));
     EXPECT_NEAR((proposal.step - Vec3(pull > 0.5 * depth ? slip : 0, 0, 0)).norm(), 0, 1e-12) << pull;
     EXPECT_NEAR((at.propose(slipping, at.finger(pull, depth)).step - Vec3(slip, 0, 0)).norm(), 0, 1e-12) << pull;
-    EXPECT_TRUE(proposal.resisted);
+    EXPECT_EQ(proposal.resistance, Proposal::Resistance::kActs);
     ASSERT_EQ(proposal.active.size(), 1u);
     EXPECT_NEAR(proposal.active[0].multiplier_m, depth, 1e-9);
   }
@@ -142,7 +142,7 @@ TEST(SurfaceRules, AStuckProxyCreepsOnItsSprings) {
   SurfaceRules rules = at.rules();
   const Vec3 finger = at.finger(0.0004, 0.002);
   const Proposal first = at.propose(rules, finger);
-  EXPECT_TRUE(first.preslides);
+  EXPECT_TRUE(first.preslides());
   EXPECT_NEAR(first.step.x(), 0.0001, 1e-12);
   rules.moved(first, first.step);
   at.goTo(at.position + first.step);

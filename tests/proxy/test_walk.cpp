@@ -25,7 +25,7 @@ class WalkTest : public testing::Test {
     Walk walk(input, cache_);
     ContactSet set;
     gatherContacts(scene_, position, input.tolerance.touching, input.tolerance.reach, set);
-    return walk.go(set, false, step, position);
+    return walk.go(set, Walk::Along::kAir, step, position) == Walk::Made::kWhole;
   }
   // In as many legs as it takes, by one Walk, as in a tick; returns how many.
   int legsTo(const Vec3& goal, Vec3& position, bool& whole) {
@@ -36,7 +36,7 @@ class WalkTest : public testing::Test {
     for (int legs = 0;; ++legs) {
       gatherContacts(scene_, position, input.tolerance.touching, input.tolerance.reach, set);
       if (whole || !set.contacts.empty()) return legs;
-      whole = walk.go(set, false, goal - position, position);
+      whole = walk.go(set, Walk::Along::kAir, goal - position, position) == Walk::Made::kWhole;
     }
   }
   bool fly(const Vec3& finger, Vec3& position) {
