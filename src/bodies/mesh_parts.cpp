@@ -10,7 +10,6 @@
 #include "bodies/mesh_holes.h"
 #include "bodies/mesh_pieces.h"
 #include "bodies/nearly_convex.h"
-#include "bodies/piece_mesh.h"
 
 namespace hl {
 
@@ -24,24 +23,6 @@ struct Part {
   Solid solid;  // of the hull
   std::size_t piece = 0;
 };
-
-std::vector<PieceMesh> meshesOfPieces(const Model& model) {
-  auto pieces = piecesOf(model.positions, model.triangles);
-  if (pieces.size() > kMaxParts) {  // all together are cut
-    for (std::size_t i = 1; i < pieces.size(); ++i)
-      pieces[0].insert(pieces[0].end(), pieces[i].begin(), pieces[i].end());
-    pieces.resize(1);
-  }
-  std::vector<PieceMesh> meshes;
-  for (const auto& piece : pieces) {
-    PieceMesh mesh = pieceMesh(model, piece);
-    const bool is_there = std::any_of(meshes.begin(), meshes.end(), [&](const PieceMesh& other) {
-      return other.vertices == mesh.vertices && other.triangles == mesh.triangles;
-    });
-    if (!is_there) meshes.push_back(std::move(mesh));
-  }
-  return meshes;
-}
 
 NearlyConvex partsOfPiece(const PieceMesh& mesh, std::size_t number, double allowed_m, std::size_t most) {
   try {
@@ -196,10 +177,22 @@ std::vector<Part> partsOf(const std::vector<PieceMesh>& meshes, double allowed_m
 
 }  // namespace
 
-std::vector<std::vector<Vec3>> cornersOfPieces(const Model& model) {
-  std::vector<std::vector<Vec3>> corners;
-  for (PieceMesh& mesh : meshesOfPieces(model)) corners.push_back(std::move(mesh.vertices));
-  return corners;
+std::vector<PieceMesh> meshesOfPieces(const Model& model) {
+  auto pieces = piecesOf(model.positions, model.triangles);
+  if (pieces.size() > kMaxParts) {  // all together are cut
+    for (std::size_t i = 1; i < pieces.size(); ++i)
+      pieces[0].insert(pieces[0].end(), pieces[i].begin(), pieces[i].end());
+    pieces.resize(1);
+  }
+  std::vector<PieceMesh> meshes;
+  for (const auto& piece : pieces) {
+    PieceMesh mesh = pieceMesh(model, piece);
+    const bool is_there = std::any_of(meshes.begin(), meshes.end(), [&](const PieceMesh& other) {
+      return other.vertices == mesh.vertices && other.triangles == mesh.triangles;
+    });
+    if (!is_there) meshes.push_back(std::move(mesh));
+  }
+  return meshes;
 }
 
 MeshParts partsOfMesh(const Model& model) {

@@ -6,6 +6,7 @@
 
 #include "bodies/compound.h"
 #include "bodies/mass.h"
+#include "bodies/piece_mesh.h"
 #include "scene/model.h"
 
 namespace hl {
@@ -20,9 +21,8 @@ struct MeshParts {
   double shell_m = 0;  ///< how thick those that are shells count for the mass; 0: none is
 };
 
-/// The corners of each hull that hullOf() may be asked for at first, each place once, in an order that no order of
-/// triangles changes: one set for each piece (mesh_pieces.h).
-std::vector<std::vector<Vec3>> cornersOfPieces(const Model& model);
+/// The pieces of a mesh (mesh_pieces.h), each once; of more than kMaxParts all together, as one.
+std::vector<PieceMesh> meshesOfPieces(const Model& model);
 
 /// Of half the diagonal of the mesh's bounds: a part may be so far from the mesh.
 inline constexpr double kNearlyConvex = 0.02;

@@ -132,16 +132,4 @@ bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, ElementId source,
   return true;
 }
 
-bool makeSegment(const Vec3& a, const Vec3& b, ElementId source, Primitive& out) {
-  if (!isSegment(a, b)) return false;
-  out = segmentOf(a, b, source);
-  return true;
-}
-
-bool makePoint(const Vec3& a, ElementId source, Primitive& out) {
-  if (!withinReach(a)) return false;
-  out = pointOf(a, source);
-  return true;
-}
-
 }  // namespace hl

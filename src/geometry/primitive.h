@@ -45,10 +45,8 @@ Primitive pointOf(const Vec3& a, ElementId source);
 /// The last of a segment's `corners` is ignored. RT-safe.
 Primitive shrunkenOf(PrimitiveKind kind, const std::array<Vec3, 3>& corners, ElementId source);
 
-/// Checks and makes a primitive. Returns false, and leaves `out` unchanged, if the vertices are not valid.
+/// Checks and makes a triangle. Returns false, and leaves `out` unchanged, if the vertices are not valid.
 bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, ElementId source, Primitive& out);
-bool makeSegment(const Vec3& a, const Vec3& b, ElementId source, Primitive& out);
-bool makePoint(const Vec3& a, ElementId source, Primitive& out);
 
 /// Below this ratio of height to longest edge the face normal of a triangle has fewer than five good digits.
 inline constexpr double kSliver = 1e-11;

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "geometry/make_primitive.h"
 #include "geometry/primitives.h"
 
 namespace hl::test {

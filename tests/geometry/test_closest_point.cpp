@@ -79,7 +79,7 @@ TEST(ClosestPoint, NeighboursGiveTheSameBitsOnASharedEdgeAndVertex) {
     Primitive left, right, segment;
     ASSERT_TRUE(makeTriangle(a, b, a + random.inCube(1), 0, left));
     ASSERT_TRUE(makeTriangle(b, a, b + random.inCube(1), 1, right));
-    ASSERT_TRUE(makeSegment(b, a, 2, segment));
+    ASSERT_TRUE(test::makeSegment(b, a, 2, segment));
     const Vec3 p = random.inCube(2);
     const ClosestPoint of_segment = closestPoint(segment, p);
     for (const Primitive* triangle : {&left, &right}) {
@@ -119,8 +119,8 @@ TEST(ClosestPoint, WithinADistanceLeavesOutOnlyWhatIsFarther) {
 TEST(ClosestPoint, AtDistanceZeroTheNormalIsStillAUnitVector) {
   Primitive triangle, segment, point;
   ASSERT_TRUE(makeTriangle(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), 0, triangle));
-  ASSERT_TRUE(makeSegment(Vec3(0, 0, 0), Vec3(1, 0, 0), 0, segment));
-  ASSERT_TRUE(makePoint(Vec3(1, 2, 3), 0, point));
+  ASSERT_TRUE(test::makeSegment(Vec3(0, 0, 0), Vec3(1, 0, 0), 0, segment));
+  ASSERT_TRUE(test::makePoint(Vec3(1, 2, 3), 0, point));
   for (const Vec3& p : {Vec3(0.25, 0.25, 0), Vec3(0.5, 0, 0), Vec3(0, 0, 0)}) {
     EXPECT_EQ(closestPoint(triangle, p).distance, 0);
     EXPECT_EQ(closestPoint(triangle, p).normal, triangle.normal);

@@ -51,28 +51,28 @@ TEST(Primitive, DegenerateAndNonFiniteAreRefusedAndLeaveTheResultAlone) {
   EXPECT_FALSE(makeTriangle(a, b, Vec3(nan, 1, 0), 0, out));
   EXPECT_FALSE(makeTriangle(a, b, Vec3(0, infinity, 0), 0, out));
   EXPECT_FALSE(makeTriangle(a, Vec3(1e200, 0, 0), Vec3(0, 1e200, 0), 0, out));
-  EXPECT_FALSE(makeSegment(a, a, 0, out));
-  EXPECT_FALSE(makeSegment(a, Vec3(0, nan, 0), 0, out));
-  EXPECT_FALSE(makePoint(Vec3(0, 0, infinity), 0, out));
-  EXPECT_FALSE(makePoint(Vec3(0, -1.001 * kFarthest_m, 0), 0, out));
+  EXPECT_FALSE(test::makeSegment(a, a, 0, out));
+  EXPECT_FALSE(test::makeSegment(a, Vec3(0, nan, 0), 0, out));
+  EXPECT_FALSE(test::makePoint(Vec3(0, 0, infinity), 0, out));
+  EXPECT_FALSE(test::makePoint(Vec3(0, -1.001 * kFarthest_m, 0), 0, out));
   EXPECT_EQ(out.source, 99u);
-  EXPECT_TRUE(makePoint(Vec3(0, -kFarthest_m, 0), 0, out));
+  EXPECT_TRUE(test::makePoint(Vec3(0, -kFarthest_m, 0), 0, out));
   EXPECT_TRUE(makeTriangle(a, b, Vec3(0.5, 1e-10, 0), 0, out));
 }
 
 TEST(Primitive, NegativeZeroIsTheSameVertexAsZero) {
   Primitive point;
-  ASSERT_TRUE(makePoint(Vec3(-0.0, 0.0, -0.0), 0, point));
+  ASSERT_TRUE(test::makePoint(Vec3(-0.0, 0.0, -0.0), 0, point));
   for (int axis = 0; axis < 3; ++axis) EXPECT_FALSE(std::signbit(point.vertex[0][axis]));
 }
 
 TEST(Primitive, SegmentsAndPointsRepeatTheirLastVertex) {
   Primitive segment, point;
-  ASSERT_TRUE(makeSegment(Vec3(1, 0, 0), Vec3(0, 0, 0), 3, segment));
+  ASSERT_TRUE(test::makeSegment(Vec3(1, 0, 0), Vec3(0, 0, 0), 3, segment));
   EXPECT_EQ(segment.vertex[0], Vec3(0, 0, 0));
   EXPECT_EQ(segment.vertex[2], segment.vertex[1]);
   EXPECT_EQ(segment.order[0], 1);
-  ASSERT_TRUE(makePoint(Vec3(1, 2, 3), 4, point));
+  ASSERT_TRUE(test::makePoint(Vec3(1, 2, 3), 4, point));
   EXPECT_EQ(point.vertex[2], point.vertex[0]);
 }
 

@@ -41,10 +41,10 @@ std::vector<Primitive> oneByOne(const Mesh& mesh) {
   }
   for (std::uint32_t i = 0; i < mesh.segments.size(); ++i) {
     const auto& s = mesh.segments[i];
-    if (std::max(s[0], s[1]) < p.size() && makeSegment(p[s[0]], p[s[1]], i, out)) made.push_back(out);
+    if (std::max(s[0], s[1]) < p.size() && test::makeSegment(p[s[0]], p[s[1]], i, out)) made.push_back(out);
   }
   for (std::uint32_t i = 0; i < mesh.points.size(); ++i) {
-    if (mesh.points[i] < p.size() && makePoint(p[mesh.points[i]], i, out)) made.push_back(out);
+    if (mesh.points[i] < p.size() && test::makePoint(p[mesh.points[i]], i, out)) made.push_back(out);
   }
   return made;
 }

@@ -114,8 +114,8 @@ RC_GTEST_PROP(Queries, FirstImpactAmongIntegerPrimitivesIsThatOfBruteForce, ()) 
     const Vec3 a = vec(), b = vec(), c = vec();
     const auto source = static_cast<std::uint32_t>(scene.size());
     Primitive primitive;
-    if (!makeTriangle(a, b, c, source, primitive) && !makeSegment(a, b, source, primitive))
-      makePoint(a, source, primitive);
+    if (!makeTriangle(a, b, c, source, primitive) && !test::makeSegment(a, b, source, primitive))
+      test::makePoint(a, source, primitive);
     scene.push_back(primitive);
   }
   const Asked asked(std::move(scene));
@@ -173,9 +173,9 @@ TEST(Queries, HierarchiesAndBruteForceAgreeToTheBitFarFromTheOrigin) {
   for (const Primitive& near : test::soup(random, 300, 1, 0.2)) {
     const auto& v = near.vertex;
     Primitive far;
-    const bool made = near.kind == PrimitiveKind::kPoint ? makePoint(v[0] + place, near.source, far)
+    const bool made = near.kind == PrimitiveKind::kPoint ? test::makePoint(v[0] + place, near.source, far)
                       : near.kind == PrimitiveKind::kSegment
-                          ? makeSegment(v[0] + place, v[1] + place, near.source, far)
+                          ? test::makeSegment(v[0] + place, v[1] + place, near.source, far)
                           : makeTriangle(v[0] + place, v[1] + place, v[2] + place, near.source, far);
     if (made) scene.push_back(far);
   }

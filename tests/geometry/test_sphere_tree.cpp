@@ -125,9 +125,9 @@ TEST(SphereTree, C54ClusteredAndCoincidentInputsKeepTheDepthBounded) {
   for (std::uint32_t i = 0; i < 1000; ++i) {
     Primitive point;
     // Each middle split would take off one point only.
-    ASSERT_TRUE(makePoint(Vec3(std::pow(0.9, i), 0, 0), i, point));
+    ASSERT_TRUE(test::makePoint(Vec3(std::pow(0.9, i), 0, 0), i, point));
     halving.push_back(point);
-    ASSERT_TRUE(makePoint(Vec3(1, 2, 3), i, point));
+    ASSERT_TRUE(test::makePoint(Vec3(1, 2, 3), i, point));
     same.push_back(point);
     const double size = std::pow(0.95, i);
     test::addTriangle(nested, Vec3(0, 0, 0), Vec3(size, 0, 0), Vec3(0, size, 0));
@@ -180,7 +180,7 @@ TEST(SphereTree, EmptyAndSingleScenesWork) {
   FirstImpact impact;
   EXPECT_FALSE(firstImpact(empty, {}, Vec3::Zero(), Vec3::UnitX(), 1, 0, impact));
   std::vector<Primitive> one(1);
-  ASSERT_TRUE(makePoint(Vec3(2, 0, 0), 0, one[0]));
+  ASSERT_TRUE(test::makePoint(Vec3(2, 0, 0), 0, one[0]));
   const SphereTree single = SphereTree::build(one);
   EXPECT_TRUE(single.nodes().empty());
   ASSERT_TRUE(firstImpact(single, one, Vec3::Zero(), Vec3(4, 0, 0), 1, 0, impact));

@@ -126,7 +126,8 @@ RC_GTEST_PROP(SweepSphere, C06EveryIntegerCaseAgreesWithTheJudge, ()) {
   const auto vec = [&] { return Vec3(*coordinate, *coordinate, *coordinate); };
   Case c;
   const Vec3 a = vec(), b = vec(), d = vec();
-  if (!makeTriangle(a, b, d, 0, c.primitive) && !makeSegment(a, b, 0, c.primitive)) makePoint(a, 0, c.primitive);
+  if (!makeTriangle(a, b, d, 0, c.primitive) && !test::makeSegment(a, b, 0, c.primitive))
+    test::makePoint(a, 0, c.primitive);
   c.from = vec();
   c.motion = vec();
   c.radius = *rc::gen::inRange(1, 8) * 0.25;

@@ -135,10 +135,10 @@ std::vector<std::vector<Primitive>> strangeScenes() {
     const Vec3 at = place + random.inCube(1);
     test::addTriangle(far, at, at + random.inCube(0.05), at + random.inCube(0.05));
     test::addTriangle(same, Vec3(1, 2, 3), Vec3(2, 2, 3), Vec3(1, 3, 3));
-    if (makePoint(Vec3(1, 2, 3), i, one)) points.push_back(one);
-    if (makePoint(Vec3(std::pow(0.9, i), 0, 0), i, one)) shrinking.push_back(one);
+    if (test::makePoint(Vec3(1, 2, 3), i, one)) points.push_back(one);
+    if (test::makePoint(Vec3(std::pow(0.9, i), 0, 0), i, one)) shrinking.push_back(one);
     const double length = std::pow(10.0, random.uniform(-9, 9));
-    if (makeSegment(random.inCube(1), length * random.direction(), i, one)) long_and_short.push_back(one);
+    if (test::makeSegment(random.inCube(1), length * random.direction(), i, one)) long_and_short.push_back(one);
   }
   for (auto* scene : {&far, &same, &points, &shrinking, &long_and_short}) scenes.push_back(std::move(*scene));
   return scenes;
@@ -338,14 +338,14 @@ TEST(WideBvh, NoneOneAndTwoPrimitivesWork) {
   EXPECT_TRUE(overlapping(empty, Vec3::Zero(), 1e9).empty());
   EXPECT_TRUE(swept(empty, Vec3::Zero(), Vec3::UnitX(), 1, 1).empty());
   std::vector<Primitive> scene(1);
-  ASSERT_TRUE(makePoint(Vec3(2, 0, 0), 0, scene[0]));
+  ASSERT_TRUE(test::makePoint(Vec3(2, 0, 0), 0, scene[0]));
   const WideBvh one = WideBvh::build(scene);
   FirstImpact impact;
   EXPECT_FALSE(firstImpact(one, scene, Vec3::Zero(), Vec3(-4, 0, 0), 1, 0, impact));
   ASSERT_TRUE(firstImpact(one, scene, Vec3::Zero(), Vec3(4, 0, 0), 1, 0, impact));
   EXPECT_EQ(impact.impact.t, 0.25);
   scene.emplace_back();
-  ASSERT_TRUE(makePoint(Vec3(0, 5, 0), 1, scene[1]));
+  ASSERT_TRUE(test::makePoint(Vec3(0, 5, 0), 1, scene[1]));
   const WideBvh two = WideBvh::build(scene);
   EXPECT_TRUE(two.nodes().empty());
   EXPECT_EQ(overlapping(two, Vec3::Zero(), 3), Numbers{0});
@@ -361,7 +361,7 @@ TEST(WideBvh, TheSmallestIsFoundOnTheLongestWay) {
   for (int i = 0; i < test::cases(20'000); ++i) {
     const double far = std::pow(10.0, random.uniform(-9, 8));
     std::vector<Primitive> scene(1);
-    ASSERT_TRUE(makePoint(far * random.direction(), 0, scene[0]));
+    ASSERT_TRUE(test::makePoint(far * random.direction(), 0, scene[0]));
     const WideBvh bvh = WideBvh::build(scene);
     const double reach = std::pow(10.0, random.uniform(-9, 8)), length = std::pow(10.0, random.uniform(-9, 10));
     const Vec3 from = scene[0].vertex[0] + 1.3 * reach * random.direction(), motion = length * random.direction();

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "geometry/make_primitive.h"
 #include "geometry/primitive.h"
 #include "scene/model.h"
 
@@ -17,10 +18,10 @@ inline std::vector<Primitive> primitivesOf(const Model& model) {
     if (makeTriangle(at[t[0]], at[t[1]], at[t[2]], 0, made)) primitives.push_back(made);
   }
   for (const auto& s : model.segments) {
-    if (makeSegment(at[s[0]], at[s[1]], 0, made)) primitives.push_back(made);
+    if (test::makeSegment(at[s[0]], at[s[1]], 0, made)) primitives.push_back(made);
   }
   for (const auto p : model.points) {
-    if (makePoint(at[p], 0, made)) primitives.push_back(made);
+    if (test::makePoint(at[p], 0, made)) primitives.push_back(made);
   }
   return primitives;
 }

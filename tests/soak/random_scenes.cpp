@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/make_primitive.h"
 #include "scene/snapshot.h"
 #include "soak/add_triangle.h"
 
@@ -177,10 +178,10 @@ void keepPrimitives(const Model& model, std::size_t closed, RandomScene& scene) 
     scene.solid.push_back({at[t[0]], at[t[1]], at[t[2]]});
   }
   for (const auto& s : model.segments) {
-    if (makeSegment(at[s[0]], at[s[1]], 0, made)) scene.primitives.push_back(made);
+    if (test::makeSegment(at[s[0]], at[s[1]], 0, made)) scene.primitives.push_back(made);
   }
   for (const auto p : model.points) {
-    if (makePoint(at[p], 0, made)) scene.primitives.push_back(made);
+    if (test::makePoint(at[p], 0, made)) scene.primitives.push_back(made);
   }
 }
 

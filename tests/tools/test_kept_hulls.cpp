@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bodies/convex_hull.h"
 #include "bodies/mesh_parts.h"
@@ -12,6 +14,13 @@
 
 namespace hl::test_kept_hulls {
 namespace {
+
+// The corners of each piece of a mesh, of which its hull is asked for at first.
+std::vector<std::vector<Vec3>> cornersOfPieces(const Model& model) {
+  std::vector<std::vector<Vec3>> corners;
+  for (PieceMesh& mesh : meshesOfPieces(model)) corners.push_back(std::move(mesh.vertices));
+  return corners;
+}
 
 // Each set of points of which a body's shape is a hull.
 std::vector<std::vector<Vec3>> hulledPoints(const SceneBody& body) {
