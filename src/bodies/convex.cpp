@@ -35,14 +35,32 @@ void measureReach(Convex& shape) {
     shape.reach = std::max(shape.reach, (vertex - shape.middle).norm() + shape.radius);
 }
 
-void measureWidth(Convex& shape) {
-  shape.thin = std::numeric_limits<double>::infinity();
-  for (const Convex::Face& face : shape.faces) {
-    double lowest = 0;
-    for (const Vec3& vertex : shape.vertices)
-      lowest = std::min(lowest, face.normal.dot(vertex - shape.vertices[face.corners[0]]));
-    shape.thin = std::min(shape.thin, shape.radius - lowest / 2);
+double widthAlong(const Convex& shape, const Vec3& direction) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& vertex : shape.vertices) {
+    const double along = direction.dot(vertex);
+    low = std::min(low, along);
+    high = std::max(high, along);
   }
+  return high - low;
+}
+
+// A polytope is thinnest across a face or between two edges: a tetrahedron of four corners nearly in a plane is much
+// thicker across each of its faces.
+void measureWidth(Convex& shape) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Convex::Face& face : shape.faces) least = std::min(least, widthAlong(shape, face.normal));
+  const auto along = [&](const std::array<Convex::Index, 2>& ends) {
+    return Vec3((shape.vertices[ends[1]] - shape.vertices[ends[0]]).normalized());
+  };
+  for (std::size_t i = 0; i < shape.directions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec3 across = along(shape.directions[i]).cross(along(shape.directions[j]));
+      const double sine = across.norm();
+      if (sine > kOneDirection) least = std::min(least, widthAlong(shape, across / sine));
+    }
+  }
+  shape.thin = shape.radius + least / 2;
 }
 
 // Of a polygon, by Newell: the sum over its corners. Length: twice the area.

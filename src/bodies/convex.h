@@ -32,7 +32,7 @@ struct Convex {
   std::vector<Face> faces;                       ///< none of a point or segment; a triangle has two
   double radius = 0;                             ///< m, >= 0
   double reach = 0;                              ///< m, greatest distance from `middle`
-  double thin = 0;                               ///< m, half of the least width across a face, radius included
+  double thin = 0;                               ///< m, half of the least width, radius included
   double round_radius = 0;                       ///< m; > 0: a cylinder about z; faces 0 and 1 are its ends
   Vec3 middle = Vec3::Zero();                    ///< inside; the origin but for a part of a compound
 };

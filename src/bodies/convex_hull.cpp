@@ -60,6 +60,7 @@ Hull hullOf(std::span<const Vec3> points) {
   Hull hull;
   hull.error_m = size * faces.error;
   for (Vec3& vertex : shape.vertices) vertex *= size;
+  shape.thin *= size;
   hull.shape = moved(std::move(shape), middle);
   return hull;
 }

@@ -4,6 +4,7 @@
 #include <bitset>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "bodies/cylinder.h"
 #include "bodies/nearest_points.h"
@@ -148,15 +149,11 @@ using Polygon = FixedVector<Vec3, kMaxCorners>;
 
 // What `of` turns toward the face: the face most opposed to its normal, or a whole segment. Of a cylinder's side it is
 // the line that touches: the next edge of the prism would hold it up as it rolls.
-Polygon incidentPolygon(const PlacedConvex& of, const Vec3& normal) {
+Polygon incidentPolygon(const PlacedConvex& of, std::size_t opposed) {
   Polygon polygon;
   if (of.normals.empty()) {
     for (const Vec3& vertex : of.vertices) polygon.push(vertex);
     return polygon;
-  }
-  std::size_t opposed = 0;
-  for (std::size_t face = 1; face < of.normals.size(); ++face) {
-    if (of.normals[face].dot(normal) < of.normals[opposed].dot(normal)) opposed = face;
   }
   if (of.turned_edge && opposed >= kCylinderEnds) {
     polygon.push(of.vertices[0]);
@@ -166,6 +163,38 @@ Polygon incidentPolygon(const PlacedConvex& of, const Vec3& normal) {
   for (const Convex::Index corner : of.shape->faces[opposed].corners) polygon.push(of.vertices[corner]);
   return polygon;
 }
+
+// The face most opposed to the normal, of those for which `counts` is true; at least one.
+template <typename Counts>
+std::size_t mostOpposed(const PlacedConvex& of, const Vec3& normal, const Counts& counts) {
+  std::size_t opposed = 0;
+  double least = kUnparted;
+  for (std::size_t face = 0; face < of.normals.size(); ++face) {
+    const double along = of.normals[face].dot(normal);
+    if (along >= least || !counts(face)) continue;
+    opposed = face;
+    least = along;
+  }
+  return opposed;
+}
+
+// The face most opposed to the normal may not have the lowest vertex, where faces of unlike sizes meet.
+struct IncidentFaces {
+  IncidentFaces(const PlacedConvex& of, const Vec3& normal, double slack) {
+    if (of.normals.empty()) return;
+    opposed = mostOpposed(of, normal, [](std::size_t) { return true; });
+    const double low = lowest(of.vertices, normal) + slack;
+    const auto is_low = [&](std::size_t face) {
+      const auto& corners = of.shape->faces[face].corners;
+      return std::any_of(corners.begin(), corners.end(),
+                         [&](Convex::Index corner) { return normal.dot(of.vertices[corner]) <= low; });
+    };
+    if (!isRound(of) && !is_low(opposed)) low_one = mostOpposed(of, normal, is_low);
+  }
+
+  std::size_t opposed = 0;
+  std::optional<std::size_t> low_one;
+};
 
 // Sutherland and Hodgman: keeps what lies below the plane, and what is above by no more than `slack` (m), so that the
 // corners of blocks that stand flush on each other all stay.
@@ -188,20 +217,26 @@ void clipAgainstFace(const PlacedConvex& reference, std::size_t face, const Plac
                      double slack, double margin, Manifold& out) {
   const Vec3& normal = reference.normals[face];
   const auto& corners = reference.shape->faces[face].corners;
-  Polygon polygon = incidentPolygon(incident, normal);
-  for (std::size_t i = 0; i < corners.size() && !polygon.empty(); ++i) {
-    const Vec3& from = reference.vertices[corners[i]];
-    const Vec3& to = reference.vertices[corners[(i + 1) % corners.size()]];
-    polygon = clipped(polygon, from, (to - from).cross(normal).normalized(), slack);
-  }
   out.normal = sign * normal;
   const double radius_i = incident.shape->radius, radius_r = reference.shape->radius;
   ManifoldPoints found;
-  for (const Vec3& corner : polygon) {
-    const double distance = normal.dot(corner - reference.vertices[corners[0]]);
-    const Vec3 on_a = sign > 0 ? corner : Vec3(corner - distance * normal);
-    addPoint(found, out.normal, on_a, distance, sign > 0 ? radius_i : radius_r, sign > 0 ? radius_r : radius_i, margin);
-  }
+  const auto add = [&](std::size_t opposed) {
+    Polygon polygon = incidentPolygon(incident, opposed);
+    for (std::size_t i = 0; i < corners.size() && !polygon.empty(); ++i) {
+      const Vec3& from = reference.vertices[corners[i]];
+      const Vec3& to = reference.vertices[corners[(i + 1) % corners.size()]];
+      polygon = clipped(polygon, from, (to - from).cross(normal).normalized(), slack);
+    }
+    for (const Vec3& corner : polygon) {
+      const double distance = normal.dot(corner - reference.vertices[corners[0]]);
+      const Vec3 on_a = sign > 0 ? corner : Vec3(corner - distance * normal);
+      addPoint(found, out.normal, on_a, distance, sign > 0 ? radius_i : radius_r, sign > 0 ? radius_r : radius_i,
+               margin);
+    }
+  };
+  const IncidentFaces faces(incident, normal, slack);
+  if (faces.low_one) add(*faces.low_one);
+  add(faces.opposed);
   keepSpread(found, out);
 }
 
@@ -304,9 +339,7 @@ bool manifoldOfTurned(const Manifold& rough, const PlacedConvex& a, const Placed
 bool findManifold(const PlacedConvex& a, const PlacedConvex& b, double margin, Manifold& out) {
   if (!isRound(a) && !isRound(b)) return manifoldOfPolytopes(a, b, margin, out);
   if (a.vertices.size() == 1 || b.vertices.size() == 1) return manifoldOfPolytopes(a, b, margin, out);
-  constexpr double kSagitta = 0.005;  // of the radius: 1 - cos(pi / 32)
-  const double rough_margin = margin + kSagitta * (a.shape->round_radius + b.shape->round_radius);
-  if (!manifoldOfPolytopes(a, b, rough_margin, out)) return false;
+  if (!manifoldOfPolytopes(a, b, margin + roughnessOf(a, b), out)) return false;
   const Manifold rough = out;
   if (!manifoldOfTurned(rough, a, b, margin, out)) return false;
   const Manifold found = out;

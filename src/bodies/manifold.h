@@ -21,6 +21,12 @@ struct Manifold {
   FixedVector<ManifoldPoint, kMaxPoints> points;
 };
 
+/// m: by how much the overlap of two cylinders' rims may jump from one pose to the next: the prisms that stand for them
+/// (convex.h) lie inside by 1 - cos(pi / 32) of the radius. RT-safe.
+inline double roughnessOf(const PlacedConvex& a, const PlacedConvex& b) {
+  constexpr double kSagitta = 0.005;
+  return kSagitta * (a.shape->round_radius + b.shape->round_radius);
+}
 /// The points of `a` and `b` nearer than `margin` (m, >= 0) along the normal. False, and `out` unspecified, if there
 /// are none. RT-safe.
 bool findManifold(const PlacedConvex& a, const PlacedConvex& b, double margin, Manifold& out);

@@ -1,6 +1,7 @@
 // Manifolds of convex shapes.
 #include <gtest/gtest.h>
 
+#include "bodies/convex_hull.h"
 #include "bodies/placed_bodies.h"
 #include "draws.h"
 
@@ -43,6 +44,29 @@ TEST(Manifold, CrossedEdgesHaveOnePoint) {
   ASSERT_EQ(found.points.size(), 1u);
   EXPECT_NEAR(found.points[0].gap, 0.001, 1e-9);
   EXPECT_LT((found.normal - Vec3::UnitY()).norm(), 1e-9);
+}
+
+// Of what has long and short faces side by side, the face that is turned most toward another shape may not have the
+// corner that is deepest in it.
+TEST(Manifold, OfAnyHullOnAFaceHasItsLowestCorner) {
+  test::Draws draws(5);
+  const PlacedShape b(boxShape(Vec3(1, 0.1, 1)), Vec3(0, -0.1, 0));
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<Vec3> points;
+    for (int k = 0; k < 4 + i % 12; ++k)
+      points.emplace_back(draws.between(0.5, 1) * Vec3(0.002, 0.004, 0.02).cwiseProduct(draws.direction()));
+    const Convex shape = moved(hullOf(points).shape, Vec3::Zero());
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(draws.between(0, 3), draws.direction()));
+    double lowest = 1;
+    for (const Vec3& vertex : shape.vertices) lowest = std::min(lowest, (turned * vertex).y());
+    const double gap = draws.between(-1e-4, 1e-4);
+    const PlacedShape a(shape, Vec3(0, gap - lowest, 0), turned);
+    Manifold found;
+    ASSERT_TRUE(findManifold(a.at, b.at, 2e-4, found)) << i;
+    double least = 1;
+    for (const ManifoldPoint& point : found.points) least = std::min(least, point.gap);
+    ASSERT_NEAR(least, gap, 1e-9) << i;
+  }
 }
 
 // It overlaps least where its edges pass that of the box, but is borne by its corners too.
