@@ -70,6 +70,19 @@ Pace paceOf(const BodyProblem& problem, const Meeting& meeting) {
   return pace;
 }
 
+double wayPastEachOther(const BodyProblem& problem, const Meeting& meeting) {
+  const Node& a = problem.nodes[static_cast<std::size_t>(meeting.a)];
+  const bool fixed = meeting.b == Row::kFixed;
+  const auto turn_of = [&](int body) {
+    const auto i = static_cast<std::size_t>(body);
+    return problem.nodes[i].spin.norm() * problem.reachOf(i);
+  };
+  const Vec3 other = fixed ? problem.sceneryVelocityAt(meeting.primitive, a.centre)
+                           : problem.nodes[static_cast<std::size_t>(meeting.b)].velocity;
+  const double turns = turn_of(meeting.a) + (fixed ? 0 : turn_of(meeting.b));
+  return problem.period_s * ((a.velocity - other).norm() + turns);
+}
+
 double deepestOf(const Manifold& manifold) {
   double deepest = 0;
   for (const ManifoldPoint& point : manifold.points) deepest = std::max(deepest, -point.gap);

@@ -69,6 +69,8 @@ struct Pace {
   bool fast = false, turns = false;
 };
 Pace paceOf(const BodyProblem& problem, const Meeting& meeting);
+/// m: how far any point of one goes in a step, seen from the other, at most.
+double wayPastEachOther(const BodyProblem& problem, const Meeting& meeting);
 
 /// m; the greatest overlap of a manifold, >= 0.
 double deepestOf(const Manifold& manifold);

@@ -35,13 +35,6 @@ void limitSpeeds(const World& world, WorldState& state) {
   }
 }
 
-double energyOfNode_J(const BodyProblem& problem, std::size_t body) {
-  const Node& node = problem.nodes[body];
-  const Mass& mass = problem.world->bodies[body].mass;
-  const Vec3 spin = problem.turned[body].transpose() * node.spin;
-  return (mass.mass_kg * node.velocity.squaredNorm() + spin.dot(mass.inertia_kg_m2 * spin)) / 2;
-}
-
 }  // namespace
 
 // What sleeps is a node that nothing moves.
@@ -177,37 +170,6 @@ void BodyStepper::book(EnergyBook& energy, std::span<const GivenImpulses> given)
   }
 }
 
-// The part of their velocity that a group of joined bodies keeps which goes a part of its way only. Gravity gives no
-// energy for a way that was not gone. A group that stops short again and again is held in a way that the rows do not
-// see: it loses velocity as it does way.
-double BodyStepper::keptBy(std::uint32_t group, double part, int stopped_short) const {
-  if (stopped_short > 1) return part;
-  double kinetic_J = 0, not_fallen_J = 0;
-  for (const std::size_t i : problem_.awake) {
-    if (problem_.groups[i] != group) continue;
-    kinetic_J += energyOfNode_J(problem_, i);
-    const Vec3 not_gone = (1 - part) * plan_.ways().ways[i];
-    not_fallen_J += world().bodies[i].mass.mass_kg * world().gravity_m_s2.dot(not_gone);
-  }
-  return not_fallen_J > 0 ? std::sqrt(std::max(0.0, 1 - not_fallen_J / kinetic_J)) : 1;
-}
-
-void BodyStepper::slowHeld(WorldState& state) {
-  for (const std::size_t i : problem_.awake) {
-    const double part = plan_.ways().parts[i];
-    int& stopped_short = state.bodies[i].stopped_short;
-    stopped_short = part < 1 ? stopped_short + 1 : 0;
-    if (stopped_short == 0) continue;
-    // The first of a group, which is slowed at once.
-    if (problem_.groups[i] == i) kept_[i] = keptBy(problem_.groups[i], part, stopped_short);
-    const double kept = kept_[problem_.groups[i]];
-    Node& node = problem_.nodes[i];
-    state.energy.contact_J += (1 - kept * kept) * energyOfNode_J(problem_, i);
-    node.velocity *= kept;
-    node.spin *= kept;
-  }
-}
-
 // The turn is that of the spin before bounces. The angular momentum stays, but for a body that bounces: it is as if the
 // bounce came at the end of the turn, at the same place of the body, so that its energy is the same there. That of the
 // same momentum would not be: a needle has it along its thin axis as soon as it has turned a little.
@@ -284,7 +246,7 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
   collectGiven(given);
   book(state.energy, given);
   joints_.book(state);
-  slowHeld(state);
+  held_.slow(state);
   move(state);
   joints_.remember(state);
   contacts_.remember(state.memory);

@@ -10,6 +10,7 @@
 
 #include "bodies/contact_rows.h"
 #include "bodies/hand_rows.h"
+#include "bodies/held_bodies.h"
 #include "bodies/impacts.h"
 #include "bodies/island_solver.h"
 #include "bodies/joint_rows.h"
@@ -32,7 +33,6 @@ class BodyStepper {
  public:
   explicit BodyStepper(std::shared_ptr<const World> world)
       : problem_(std::move(world)),
-        kept_(problem_.bodies()),
         unbounced_(problem_.bodies()),
         bounced_(problem_.bodies()),
         fastest_scenery_m_s_(problem_.world->fixed ? fastestScenery_m_s(*problem_.world->fixed) : 0) {}
@@ -65,8 +65,6 @@ class BodyStepper {
   void bounce(BodyStepReport& report);
   void collectGiven(std::span<GivenImpulses> given) const;
   void book(EnergyBook& energy, std::span<const GivenImpulses> given) const;
-  double keptBy(std::uint32_t group, double part, int stopped_short) const;
-  void slowHeld(WorldState& state);
   void move(WorldState& state) const;
 
   BodyProblem problem_;
@@ -75,11 +73,11 @@ class BodyStepper {
   MotionBounds bounds_{problem_, joints_};
   HandRows hand_rows_{problem_, contacts_, bounds_};
   MotionPlan plan_{problem_, joints_, bounds_};
+  HeldBodies held_{problem_, plan_};
   Impacts impacts_{problem_};
   Islands islands_{problem_.nodes.capacity()};
   IslandSolver solver_{problem_};
   StepWork work_;
-  std::vector<double> kept_;     // of the velocity of a group that stopped short, by its first body
   std::vector<Vec3> unbounced_;  // spins before bounces
   std::vector<char> bounced_;    // of each body: its spin changed in the bounces of the step
   const double fastest_scenery_m_s_;

@@ -103,17 +103,20 @@ bool IslandSolver::finish(std::span<Row> rows, BodyProblem& problem, StepWork& w
   return converged;
 }
 
-Row::Solved IslandSolver::beginJoined(const Part& part, BodyProblem& problem, int& sweeps) {
-  const RowSolverLimits limits = limitsFor(part.rows.size() + part.joints.set->work(part.joints.numbers));
+Row::Solved IslandSolver::beginJoined(const Part& part, BodyProblem& problem, StepWork& work, int& sweeps) {
+  const int of_sweep = static_cast<int>(part.rows.size() + part.joints.set->work(part.joints.numbers));
+  RowSolverLimits limits;
+  limits.sweeps = work.sweepsOf(of_sweep, kMinSweeps);
   const RowSolver::Report report = sweeps_.solve(part.rows, part.joints, problem.nodes, problem.period_s, limits);
   sweeps = report.sweeps;
+  work.spend(sweeps * of_sweep);
   return report.converged ? Row::Solved::kWhole : Row::Solved::kInPart;
 }
 
 // Most islands are solved by the first sweep: they lie as they lay.
 Row::Solved IslandSolver::begin(const Part& part, BodyProblem& problem, Accuracy accuracy, StepWork& work,
                                 int& sweeps) {
-  if (accuracy == Accuracy::kExact && !part.joints.numbers.empty()) return beginJoined(part, problem, sweeps);
+  if (accuracy == Accuracy::kExact && !part.joints.numbers.empty()) return beginJoined(part, problem, work, sweeps);
   RowSolverLimits limits;
   limits.sweeps = accuracy == Accuracy::kRough ? kRoughSweeps : 1;
   if (accuracy == Accuracy::kRough) limits.done = kRoughlyDone;

@@ -33,7 +33,7 @@ class IslandSolver {
   std::span<Row> takeRows(BodyProblem& problem, int island);
   std::span<const std::uint32_t> takeJoints(const BodyProblem& problem, int island);
   Row::Solved begin(const Part& part, BodyProblem& problem, Accuracy accuracy, StepWork& work, int& sweeps);
-  Row::Solved beginJoined(const Part& part, BodyProblem& problem, int& sweeps);
+  Row::Solved beginJoined(const Part& part, BodyProblem& problem, StepWork& work, int& sweeps);
   bool finish(std::span<Row> rows, BodyProblem& problem, StepWork& work, int& sweeps);
   bool findContacts(std::span<Row> rows, BodyProblem& problem, int& work, int& sweeps);
   bool goByNewton(std::span<Row> rows, BodyProblem& problem, int& work);

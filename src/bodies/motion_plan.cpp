@@ -1,6 +1,7 @@
 #include "bodies/motion_plan.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace hl {
 
@@ -8,6 +9,8 @@ namespace {
 
 // What is left of an overlap, as it is but a part, is the next step's; joints are held to the last digits.
 constexpr int kSweepsApart = 10;
+// Of all the sweeps that put joints right.
+constexpr int kWorkApart = StepWork::kMax / 2;
 // How often joints are put right.
 constexpr int kCorrections = 4;
 // Of what is off, nothing moves farther than this: a mechanism that is stretched out would be flung aside.
@@ -17,6 +20,7 @@ constexpr double kMaxMoved = 10;
 constexpr int kLooks = 8;
 constexpr double kShorter = 0.25;
 constexpr int kNeverClear = -1;
+constexpr double kAnyGap = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -36,6 +40,7 @@ MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints, cons
   kept_ = plan_.parts;
   changed_.resize(problem.bodies());
   clear_.reserve(problem.meetings.room());
+  stops_.reserve(problem.meetings.room());
 }
 
 void MotionPlan::make(const WorldState& state, bool converged) {
@@ -97,6 +102,7 @@ bool MotionPlan::pressesDeeper() const {
 // overlaps stays apart. A round that makes it worse is taken back.
 void MotionPlan::correct(const WorldState& state) {
   findOverlaps();
+  work_.begin(kWorkApart);
   double last_off = 0;
   for (int round = 0; round < kCorrections; ++round) {
     const double off = joints_.straighten(state, plan_, joints_apart_);
@@ -126,9 +132,12 @@ void MotionPlan::pushApart() {
     }
   }
   for (Row& row : overlaps_) prepareRow(row, apart_);
-  RowSolverLimits limits = limitsFor(overlaps_.size() + joints_apart_.work(problem_.awake_joints));
-  if (problem_.awake_joints.empty()) limits.sweeps = std::min(limits.sweeps, kSweepsApart);
-  sweeps_.solve(overlaps_, {&joints_apart_, problem_.awake_joints}, apart_, problem_.period_s, limits);
+  const int of_sweep = static_cast<int>(overlaps_.size() + joints_apart_.work(problem_.awake_joints)) + 1;
+  RowSolverLimits limits;
+  limits.sweeps = problem_.awake_joints.empty() ? kSweepsApart : work_.sweepsOf(of_sweep, kSweepsApart);
+  const RowSolver::Report report =
+      sweeps_.solve(overlaps_, {&joints_apart_, problem_.awake_joints}, apart_, problem_.period_s, limits);
+  work_.spend(report.sweeps * of_sweep);
 }
 
 // All by one part, so that nothing of a body moves farther than `most` (m); 0: as far as it may.
@@ -182,14 +191,26 @@ double MotionPlan::depthOf(const PairAtEnd& pair, const Meeting& meeting, double
   if (along <= enough) return std::max(along, 0.0);
   Manifold end;
   const double overlap = findManifold(pair.a, pair.b, 0, end) ? deepestOf(end) : 0;
-  return pair.along.hasPassed() || paceOf(problem_, meeting).fast ? std::max(overlap, along) : overlap;
+  const bool may_have_passed = pair.along.hasPassed() || (paceOf(problem_, meeting).fast && !turnsApart(pair, meeting));
+  return may_have_passed ? std::max(overlap, along) : overlap;
+}
+
+// Of a pair whose middles are in order: whether it can only have grazed a corner on its way, as a plane parts it at the
+// end that has turned a little from that of the begin. While the plane turns from n0 to n1 and the shapes go straight,
+// n(t) . (p_a - p_b) is at least what it is at the ends but for 1/4 |n1 - n0| times the way of one past the other.
+bool MotionPlan::turnsApart(const PairAtEnd& pair, const Meeting& meeting) const {
+  Manifold end;
+  if (!findManifold(pair.a, pair.b, kAnyGap, end) || pairAlong(pair.a, pair.b, end.normal).hasPassed()) return false;
+  const double grazed = 0.25 * (end.normal - meeting.manifold.normal).norm() * wayPastEachOther(problem_, meeting);
+  return grazed <= kLeft * (pair.a.shape->thin + pair.b.shape->thin);
 }
 
 // Farther than it began.
 bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) {
   const PairAtEnd pair(problem_, state, meeting, plan_, ends_);
   if (isKeptApart(problem_, meeting, pair)) return false;
-  const double most = std::max(leftOf(pair.a, pair.b), deepestOf(meeting.manifold) + kTouching_m);
+  const double most =
+      std::max(leftOf(pair.a, pair.b) + roughnessOf(pair.a, pair.b), deepestOf(meeting.manifold) + kTouching_m);
   return depthOf(pair, meeting, most) > most;
 }
 
@@ -229,6 +250,7 @@ bool MotionPlan::isClear(std::size_t number) const {
 
 void MotionPlan::stopShort(const WorldState& state, bool converged) {
   beginLooks();
+  stops_.clear();
   for (int look = 0; look < kLooks; ++look) {
     bool shortened = false;
     for (std::size_t i = 0; i < clear_.size(); ++i) {
@@ -240,6 +262,7 @@ void MotionPlan::stopShort(const WorldState& state, bool converged) {
         continue;
       }
       shortened = true;
+      if (stops_.size() < stops_.capacity()) stops_.push_back({meeting.a, meeting.b});
       if (look + 1 < kLooks || comesToward(meeting)) {
         shorten(state, meeting);
       } else {

@@ -3,10 +3,13 @@
 // velocity stays, so that the next step has the impact.
 #pragma once
 
+#include <span>
+
 #include "bodies/end_places.h"
 #include "bodies/motion_bounds.h"
 #include "bodies/pair_at_end.h"
 #include "bodies/row_solver.h"
+#include "bodies/step_work.h"
 
 namespace hl {
 
@@ -18,6 +21,11 @@ class MotionPlan {
   /// From the solved velocities; nothing goes farther than the bounds. `converged`: of the solver. RT-safe.
   void make(const WorldState& state, bool converged);
   const BodyWays& ways() const { return plan_; }
+  /// Two bodies that stopped short since they would have ended inside each other; of some pairs more than once.
+  struct Stop {
+    int a = 0, b = 0;  ///< numbers of bodies; b is Row::kFixed for the scene
+  };
+  std::span<const Stop> stops() const { return stops_; }
   /// m, of the way that the bodies go.
   Vec3 wayOf(std::size_t body) const { return plan_.parts[body] * plan_.ways[body]; }
 
@@ -34,6 +42,7 @@ class MotionPlan {
   void stopShort(const WorldState& state, bool converged);
   double depthAtEnd(const WorldState& state, const Meeting& meeting, double enough);
   double depthOf(const PairAtEnd& pair, const Meeting& meeting, double enough) const;
+  bool turnsApart(const PairAtEnd& pair, const Meeting& meeting) const;
   bool passes(const WorldState& state, const Meeting& meeting);
   bool comesToward(const Meeting& meeting) const;
   void shorten(const WorldState& state, const Meeting& meeting);
@@ -50,10 +59,12 @@ class MotionPlan {
   std::vector<int> changed_, clear_;
   int changes_ = 0;
   std::vector<double> kept_;  // parts before something was shortened
-  std::vector<Node> apart_;   // velocities that only push overlapping bodies apart
+  std::vector<Stop> stops_;
+  std::vector<Node> apart_;  // velocities that only push overlapping bodies apart
   std::vector<Row> overlaps_;
   JointSet joints_apart_;
   RowSolver sweeps_;
+  StepWork work_;
 };
 
 }  // namespace hl

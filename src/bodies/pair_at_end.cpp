@@ -52,7 +52,7 @@ bool isKeptApart(const BodyProblem& problem, const Meeting& meeting, const PairA
 
 double overlapOf(const PairAtEnd& pair, Manifold& end) {
   end.points.clear();
-  if (pair.along.hasPassed()) return std::max(-pair.along.gap, 0.0);
+  if (pair.along.hasPassed() || pair.along.gap >= 0) return std::max(-pair.along.gap, 0.0);
   return findManifold(pair.a, pair.b, 0, end) ? deepestOf(end) : 0;
 }
 

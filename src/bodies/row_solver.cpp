@@ -81,14 +81,6 @@ inline void solveRow(Row& row, std::span<Node> nodes) {
 
 }  // namespace
 
-RowSolverLimits limitsFor(std::size_t rows) {
-  constexpr int kMaxUpdates = 20'000;  // of single rows, some 0.8 ms
-  constexpr int kMaxSweeps = 1000, kMinSweeps = 20;
-  RowSolverLimits limits;
-  limits.sweeps = std::clamp(kMaxUpdates / static_cast<int>(rows + 1), kMinSweeps, kMaxSweeps);
-  return limits;
-}
-
 double demandOf(const Row& row, double period_s) { return demand(row, period_s); }
 
 Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes) { return velocityOf(row, nodes); }

@@ -21,8 +21,6 @@ struct RowSolverLimits {
   int sweeps = 60;
   double done = 1e-11;  ///< largest change of an impulse in a sweep over the largest impulse
 };
-/// By which the work of a step is bounded.
-RowSolverLimits limitsFor(std::size_t rows);
 
 /// Sets the steps of the row and applies the impulses with which it begins. RT-safe.
 void prepareRow(Row& row, std::span<Node> nodes);
