@@ -303,11 +303,12 @@ HL_API void hlVolumeIso(HLuint object, HLint surface, HLdouble iso);
 /** How `object` yields from the next hlFlush on, for programs that compute its deformation themselves: its mesh, as it
  * is then, was computed for `force`, N on the hand, x y z; under another force F its surface is displaced by C (force -
  * F). C: `normal` along the surface's normal and `tangential` along the surface, m of the world per newton, 0 .. 1e9.
- * NULL: for the mean force of the object in the report that hlTakeContactReport took last. Held until it is set again,
- * or the object is deleted; to be called with each frame that moves the mesh. C = 0: the mesh is what is felt. Without
- * this call the server estimates C for meshes that move. Too large a C is stable and settles slowly; below half of the
- * true one the loop of force and frames may flutter: docs/tissue.md. HL_INVALID_VALUE: the object is not defined, a
- * number is out of its range. HL_INVALID_OPERATION: in a definition. */
+ * The force is that of the whole object, and counts once however many of its faces are touched. NULL: the mean force of
+ * the object in the report that hlTakeContactReport took last. Held until it is set again, or the object is deleted; to
+ * be called with each frame that moves the mesh. C = 0: the mesh is what is felt. Without this call the server
+ * estimates C for meshes that move. Too large a C is stable and settles slowly; below half of the true one the loop of
+ * force and frames may flutter: docs/tissue.md. HL_INVALID_VALUE: the object is not defined, a number is out of its
+ * range. HL_INVALID_OPERATION: in a definition. */
 HL_API void hlCompliance(HLuint object, HLdouble normal, HLdouble tangential, const HLdouble* force);
 /** HL_TRUE: this program has defined it (hlEndObject has been called) and not deleted it; the server need not have
  * taken it yet; when it refuses, it has not been defined, or deleted: see hlFlush. */

@@ -365,10 +365,13 @@ typedef struct HLjoint {
 typedef struct HLcontact {
   HLdouble point[3];        /**< m, on the surface */
   HLdouble normal[3];       /**< unit, away from the surface, as it feels: bent by shading and bump maps */
-  HLdouble share;           /**< m: its part of proxy - finger; below 0: it pulls. Its force is share * K s / W, with W
-                                     HL_WORKSPACE_SCALE and s the mean over the contacts, weighted by shares, of
-                                     `stiffness`, or of 1 / (1 / `stiffness` + K C / W) where it yields by a compliance
-                                     C (HL_COMPLIANCE, hlCompliance) */
+  HLdouble share;           /**< m: its part of proxy + o - finger; below 0: it pulls. o is 0 unless a surface yields:
+                                     docs/tissue.md. Its force is share * K s / W, with W HL_WORKSPACE_SCALE and s the
+                                     mean over the contacts, weighted by shares, of `stiffness`, or of 1 / (1 /
+                                     `stiffness` + K C / W) where it yields by a compliance C: HL_COMPLIANCE, and of
+                                     hlCompliance c^2 normal + (1 - c^2) tangential, c the cosine between what the
+                                     contacts of its object hold together, friction too, and the sum of their share *
+                                     normal: 1 without friction */
   HLdouble static_friction; /**< mu_s there */
   HLdouble stiffness;       /**< 0..1 there */
   HLuint object;            /**< the innermost object; 0: drawn outside of objects */

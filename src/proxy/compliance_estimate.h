@@ -31,10 +31,10 @@ struct ComplianceEstimate {
   std::uint64_t geometry = 0;  ///< of its shape
   double compliance_m_N = 0;   ///< C
   Vec3 lift_m = Vec3::Zero();  ///< C F_k
-  // The point of the mesh that was touched last, and the force there at the end of the last tick:
+  // The point of the mesh that was pressed hardest, and the force of the whole mesh at the end of the last tick:
   ElementId element = 0;
   std::array<double, 3> weights{};
-  Vec3 normal = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();  ///< of its normal force
   Vec3 force_N = Vec3::Zero();
   // Since the last frame:
   double moved_m = 0, sum_N = 0;  ///< along the normal

@@ -9,6 +9,15 @@ namespace {
 
 using Shares = std::array<double, kMaxActive>;
 
+// Brings the sum of the shares to 1. False, and nothing done, where it is 0.
+bool normalise(Shares& shares) {
+  double sum = 0;
+  for (const double share : shares) sum += share;
+  if (!(sum > 0)) return false;
+  for (double& share : shares) share /= sum;
+  return true;
+}
+
 // Shares of the contacts in the part of e that is not along their normals; their sum is 1.
 Shares frictionShares(const FixedVector<ProxyContact, kMaxActive>& contacts) {
   Shares shares{};
@@ -36,6 +45,28 @@ ContactParts partsOf(const FixedVector<ProxyContact, kMaxActive>& contacts, cons
   for (std::size_t i = 0; i < contacts.size(); ++i)
     parts[i] = contacts[i].multiplier_m * contacts[i].normal + shares[i] * tangential;
   return parts;
+}
+
+JointContact jointContact(const FixedVector<ProxyContact, kMaxActive>& contacts, const ContactParts& parts,
+                          const std::array<bool, kMaxActive>& among) {
+  JointContact joint;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (among[i]) joint.shares[i] = std::max(0.0, contacts[i].multiplier_m);
+  }
+  if (!normalise(joint.shares)) {  // none of them presses
+    for (std::size_t i = 0; i < contacts.size(); ++i) joint.shares[i] = among[i] ? 1 : 0;
+    normalise(joint.shares);
+  }
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (!among[i]) continue;
+    joint.part += parts[i];
+    normal += joint.shares[i] * contacts[i].normal;
+    joint.normal = contacts[i].normal;
+  }
+  const double length = normal.norm();
+  if (length > 0) joint.normal = normal / length;
+  return joint;
 }
 
 PartsAlongNormals partsAlong(const FixedVector<Vec3, kMaxActive>& normals, const Vec3& v) {

@@ -19,6 +19,17 @@ using ContactParts = std::array<Vec3, kMaxActive>;
 /// contact. RT-safe.
 ContactParts partsOf(const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e);
 
+/// Contacts of one object, as one: what they hold together, the direction in which they press, and the share of each in
+/// that: its multiplier's, 0 of others. World frame.
+struct JointContact {
+  Vec3 part = Vec3::Zero();
+  Vec3 normal = Vec3::UnitY();  ///< unit
+  std::array<double, kMaxActive> shares{};
+};
+/// Of the contacts that are `among` them: at least one. RT-safe.
+JointContact jointContact(const FixedVector<ProxyContact, kMaxActive>& contacts, const ContactParts& parts,
+                          const std::array<bool, kMaxActive>& among);
+
 /// A vector by the normals of contacts: v = sum along[i] * normals[i] + rest, with the least rest. RT-safe.
 struct PartsAlongNormals {
   std::array<double, kMaxActive> along{};

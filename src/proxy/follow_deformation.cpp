@@ -69,23 +69,29 @@ void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySet
   };
   if (std::none_of(report.contacts.begin(), report.contacts.end(), deforms)) return;
   const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
+  const ProxyContact* hardest = nullptr;
   double most_m = 0;
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
-    const ProxyContact& contact = report.contacts[i];
-    const Instance& instance = scene.instance(contact.primitive);
-    const Vec3 pull = state.stiffness * parts[i];
-    if (!deforms(contact) || !(pull.norm() > most_m)) continue;
-    most_m = pull.norm();
-    if (estimate.key != instance.key) {
-      estimate = {};
-      estimate.key = instance.key;
-      estimate.geometry = instance.shape->geometry;
-    }
-    estimate.element = contact.primitive.element;
-    estimate.weights = contact.weights;
-    estimate.normal = contact.normal;
-    estimate.force_N = settings.springInWorld_N_m() * pull;
+    if (!deforms(report.contacts[i]) || !(parts[i].norm() > most_m)) continue;
+    most_m = parts[i].norm();
+    hardest = &report.contacts[i];
   }
+  if (hardest == nullptr || !(state.stiffness > 0)) return;
+  const Instance& instance = scene.instance(hardest->primitive);
+  if (estimate.key != instance.key) {
+    estimate = {};
+    estimate.key = instance.key;
+    estimate.geometry = instance.shape->geometry;
+  }
+  // Of the point that is pressed hardest, and all that the mesh holds.
+  std::array<bool, kMaxActive> of_mesh{};
+  for (std::size_t i = 0; i < report.contacts.size(); ++i)
+    of_mesh[i] = report.contacts[i].primitive.instance == hardest->primitive.instance;
+  const JointContact mesh = jointContact(report.contacts, parts, of_mesh);
+  estimate.element = hardest->primitive.element;
+  estimate.weights = hardest->weights;
+  estimate.normal = mesh.normal;
+  estimate.force_N = settings.springInWorld_N_m() * state.stiffness * mesh.part;
 }
 
 }  // namespace hl

@@ -11,7 +11,8 @@ class MeanStiffness {
   /// A surface of which `multiplier_m` is the normal force, as in ProxyContact.
   void add(double multiplier_m, double stiffness);
   bool empty() const { return most_ < least_; }
-  double value() const;  ///< 1 without surfaces
+  bool uniform() const { return most_ <= least_; }  ///< all surfaces have the same
+  double value() const;                             ///< 1 without surfaces
 
  private:
   double weights_m_ = 0, weighted_m_ = 0;

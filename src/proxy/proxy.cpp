@@ -60,7 +60,7 @@ TickReport tickYielding(const Vec3& finger, ProxyState& state, const SceneAt& sc
   if (state.rest_offset_m.isZero(0)) return report;
   report.target += state.rest_offset_m;
   if (!report.contacts.empty() || report.used_up_at > 0) return report;
-  state.rest_offset_m = Vec3::Zero();
+  dropRest(state);
   const int looks = report.looks;
   const double injected_J = report.injected_J;
   report = Tick(scene, settings, state, finger, most_looks - looks).run();
@@ -91,10 +91,12 @@ TickReport tickUnpierced(ProxyState& state, const SceneAt& scene, const ProxySet
                          int most_looks) {
   if (!state.free && !beginProxy(state, scene, settings, finger, convergence::kPlacesPerTick))
     return notRun(Ending::kUnplaced, finger);
+  const double shared_J = sharePull(state, scene, settings, finger);
   const double moved_J = carryAlong(state, scene, settings, finger);
-  if (!canBeFinger(finger - state.rest_offset_m)) state.rest_offset_m = Vec3::Zero();
+  if (!canBeFinger(finger - state.rest_offset_m)) dropRest(state);
   TickReport report = tickSnappedOrInMatter(state, scene, settings, finger, most_looks);
   report.moved_J = moved_J;
+  report.injected_J += shared_J;
   const Vec3 aim = finger + report.held_pull_m;  // what the contacts hold the proxy from
   rememberDeformation(state, scene, settings, report, aim);
   rememberYielding(state, scene, settings, report, aim);

@@ -54,9 +54,10 @@ struct YieldingContact {
   double stiffness = 1;         ///< s0
   double material_m_N = 0;      ///< C of the material
   double multiplier_m = 0;      ///< its weight in the mean stiffness
-  double along = 1;             ///< square of the cosine between its part of the pull and its normal
+  double share = 1;             ///< its part of the normal force of its object, 0..1
+  double along = 1;             ///< square of the cosine between the pull of its object and `normal`
   Vec3 part_m = Vec3::Zero();   ///< its part e_i of proxy - finger
-  Vec3 normal = Vec3::UnitY();  ///< from the surface to the proxy
+  Vec3 normal = Vec3::UnitY();  ///< unit: of the normal force of its object
 };
 using YieldingContacts = FixedVector<YieldingContact, kMaxActive>;
 
@@ -91,6 +92,8 @@ struct ProxyState {
   YieldingContacts yielding{};        ///< contacts of the last tick; empty if none of them yields
   double yielding_stiffness = 1;      ///< s of these contacts
   Vec3 rest_offset_m = Vec3::Zero();  ///< where the spring is fixed - proxy; 0 if nothing yields (yielding.h)
+  Vec3 sharing_m = Vec3::Zero();      ///< the part of it by which contacts share the pull as they yield
+  Vec3 pressed_m = Vec3::Zero();      ///< s times the rest of it, C F_k: times K what meshes press by F_k
   ComplianceEstimate estimate{};
   Ledger ledger{};
   int out_of_work = 0;  ///< consecutive ticks that ran out of work; more of them raise the limit (mostWork in tick.cpp)

@@ -192,14 +192,14 @@ void Tick::close(TickReport& report) {
   if (proposal_.active.empty() && !at_finger) constraints_.nearestTo(gap, proposal_);
   const TickEnd end = !proposal_.active.empty() ? TickEnd::kContact : at_finger ? TickEnd::kOpen : TickEnd::kOnItsWay;
   EnergyBooking::Causes causes{proposal_.shading, proposal_.bump, false};
-  MeanStiffness surfaces;
   for (const ActiveContact& active : proposal_.active) {
     ProxyContact contact = rules_.describe(constraints_.set(), active);
     contact.multiplier_m /= input_.far.part(input_.finger - state_.position);
     report.contacts.push(contact);
-    surfaces.add(contact.multiplier_m, yieldingStiffness(input_.scene, input_.settings, state_.estimate, contact, gap));
     causes.stiffness_textured |= rules_.stiffnessTextured(active.place.primitive);
   }
+  MeanStiffness surfaces = yieldingStiffness(input_.scene, input_.settings, state_.estimate, report.contacts,
+                                             state_.position - input_.finger);
   if (end == TickEnd::kOnItsWay) {
     for (const ActiveContact& active : last_active_)
       surfaces.add(active.multiplier_m, rules_.stiffnessAt(active.place));

@@ -1,10 +1,12 @@
 #include "proxy/yielding.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "proxy/contact_parts.h"
 #include "proxy/mean_stiffness.h"
+#include "proxy/spring_energy.h"
 #include "proxy/surface.h"
 
 namespace hl {
@@ -38,84 +40,142 @@ double cosineSquared(const Vec3& pull, const Vec3& normal) {
   return whole2 > 0 ? std::min(1.0, along_m * along_m / whole2) : 1;
 }
 
-// 1 / (1 + K s0 C): the part of K s0 that yielding leaves.
-double keptOf(double spring_N_m, double compliance_m_N) { return 1 / (1 + spring_N_m * compliance_m_N); }
+// K s of a contact over K: 1 / (1 / s0 + K C).
+double stiffnessOf(const YieldingContact& contact, const ObjectYielding& object, double spring_N_m) {
+  const double compliance_m_N = contact.material_m_N + object.compliance_m_N(contact.along);
+  return contact.stiffness / (1 + spring_N_m * contact.stiffness * compliance_m_N);
+}
 
-// Parts of `v`, along the normals and the rest.
-void addParts(const Vec3& v, YieldingContacts& contacts) {
-  const PartsAlongNormals parts = partsAlongNormals(contacts, v);
-  const Vec3 rest = parts.rest / static_cast<double>(contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].part_m += parts.along[i] * contacts[i].normal + rest;
+// Whether they yield together: shapes of one object, of which its client knows one force.
+bool sameObject(const Instance& a, const Instance& b) {
+  return a.key == b.key ||
+         (a.compliance && b.compliance && a.object != 0 && a.object == b.object && a.session == b.session);
+}
+
+// The contacts, of which the whole pull is along `e`; none if none of them yields.
+YieldingContacts yieldingOf(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
+                            const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e) {
+  const auto material_m_N = [&](const ProxyContact& contact) {
+    return constantOf(scene, settings.surfaces, contact.primitive, Quantity::kCompliance);
+  };
+  const auto yields = [&](const ProxyContact& contact) {
+    const Instance& instance = scene.instance(contact.primitive);
+    return instance.compliance || estimate.key == instance.key || material_m_N(contact) > 0;
+  };
+  YieldingContacts yielding;
+  if (std::none_of(contacts.begin(), contacts.end(), yields)) return yielding;
+  const ContactParts parts = partsOf(contacts, e);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ProxyContact& contact = contacts[i];
+    const Instance& instance = scene.instance(contact.primitive);
+    std::array<bool, kMaxActive> of_object{};
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      of_object[k] = sameObject(instance, scene.instance(contacts[k].primitive));
+    const JointContact object = jointContact(contacts, parts, of_object);
+    yielding.push({instance.key, contact.stiffness, material_m_N(contact), contact.multiplier_m, object.shares[i],
+                   cosineSquared(object.part, object.normal), parts[i], object.normal});
+  }
+  return yielding;
 }
 
 struct YieldingSpring {
   double stiffness = 1;  // s
-  Vec3 rest_offset_m = Vec3::Zero();
+  Vec3 lift_m = Vec3::Zero(), sharing_m = Vec3::Zero();
+  bool uniform = true;  // all contacts have this s
 };
 
-// The pull is the sum of those of the contacts, s_i (e_i + C_i F_ki), and s their mean; the rest of the spring is where
-// s gives this pull. Of one contact it is the proxy, displaced by C F_k.
+// s is the mean of the contacts. The rest of the spring is where s gives what they pull together:
+//
+//   lift      what the meshes press by being computed for F_k: of each object s_i C F_k, to which each of its contacts
+//             adds its share; of one object C F_k itself
+//   sharing   s_i e_i, the own part of each, in the place of s e; of the stiffness of surfaces the mean s0 stays
 YieldingSpring springOf(const ProxyState& state, const SceneAt& scene, const ProxySettings& settings) {
-  const double spring_N_m = settings.springInWorld_N_m();
-  MeanStiffness mean;
-  Vec3 whole_m = Vec3::Zero(), pull_m = Vec3::Zero(), lift_m = Vec3::Zero();
+  MeanStiffness mean, surfaces;
+  Vec3 lift_m = Vec3::Zero(), whole_m = Vec3::Zero(), yielded_m = Vec3::Zero();
   for (const YieldingContact& contact : state.yielding) {
     std::uint32_t number = 0;
     ObjectYielding object;
     if (scene.snapshot().find(contact.key, number))
       object = yieldingAt(scene.snapshot().instances[number], scene.time_ns(), state.estimate);
-    const double compliance_m_N = contact.material_m_N + object.compliance_m_N(contact.along);
-    const double stiffness = contact.stiffness * keptOf(spring_N_m * contact.stiffness, compliance_m_N);
-    lift_m = object.lift(contact.along, contact.normal);
+    const double stiffness = stiffnessOf(contact, object, settings.springInWorld_N_m());
     mean.add(contact.multiplier_m, stiffness);
+    surfaces.add(contact.multiplier_m, contact.stiffness);
+    lift_m += contact.share * stiffness * object.lift(contact.along, contact.normal);
     whole_m += contact.part_m;
-    pull_m += stiffness * (contact.part_m + lift_m);
+    yielded_m += (contact.stiffness - stiffness) * contact.part_m;
   }
   const double s = mean.value();
-  if (state.yielding.size() == 1 || !(s > 0)) return {s, lift_m};
-  return {s, pull_m / s - whole_m};
+  if (!(s > 0)) return {s};
+  if (mean.uniform()) return {s, lift_m / s};
+  return {s, lift_m / s, (surfaces.value() * whole_m - yielded_m) / s - whole_m, false};
 }
 
 }  // namespace
 
-double yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
-                         const ProxyContact& contact, const Vec3& e) {
-  const ObjectYielding object = yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate);
-  const double compliance_m_N = constantOf(scene, settings.surfaces, contact.primitive, Quantity::kCompliance) +
-                                object.compliance_m_N(cosineSquared(e, contact.normal));
-  if (!(compliance_m_N > 0)) return contact.stiffness;
-  const double spring_N_m = settings.springInWorld_N_m() * contact.stiffness;
-  return contact.stiffness * keptOf(spring_N_m, compliance_m_N);
+MeanStiffness yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
+                                const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e) {
+  MeanStiffness mean;
+  const YieldingContacts yielding = yieldingOf(scene, settings, estimate, contacts, e);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ProxyContact& contact = contacts[i];
+    double stiffness = contact.stiffness;
+    if (!yielding.empty())
+      stiffness = stiffnessOf(yielding[i], yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate),
+                              settings.springInWorld_N_m());
+    mean.add(contact.multiplier_m, stiffness);
+  }
+  return mean;
+}
+
+double sharePull(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
+  if (state.yielding.empty()) return 0;
+  const YieldingSpring spring = springOf(state, scene, settings);
+  // Where s has changed, what the meshes press by F_k has not: so its lift has, and that is a part of the way.
+  const bool changed = !spring.uniform && state.yielding_stiffness > 0;
+  const Vec3 sharing_m =
+      changed ? Vec3(state.rest_offset_m - state.pressed_m / state.yielding_stiffness) : state.sharing_m;
+  const Vec3 way = spring.sharing_m - sharing_m;
+  state.sharing_m = sharing_m;
+  if (way.isZero(0)) return 0;
+  const double before_J = springEnergy_J(settings, state, finger);
+  const double joule_per_square =
+      springEnergy_J(settings.spring_N_m, state.stiffness, 1) / (settings.world_per_device * settings.world_per_device);
+  const double budget_J = state.ledger.budget_J(settings.ledger);
+  const bool free = !(joule_per_square > 0) || !std::isfinite(budget_J);
+  const Vec3 e = state.position + state.rest_offset_m - finger;
+  const Vec3 step = (free ? 1 : partWithin(e, way, budget_J / joule_per_square)) * way;
+  state.sharing_m += step;
+  state.rest_offset_m += step;
+  const double change_J = springEnergy_J(settings, state, finger) - before_J;
+  if (change_J > 0) state.ledger.add(EnergyCause::kStiffness, change_J);
+  state.ledger.book(change_J, true);
+  return change_J;
 }
 
 void yieldToFrames(ProxyState& state, const SceneAt& scene, const ProxySettings& settings) {
-  state.rest_offset_m = Vec3::Zero();
-  if (state.yielding.empty()) return;
+  if (state.yielding.empty()) return dropRest(state);
   const YieldingSpring spring = springOf(state, scene, settings);
-  if (!(spring.stiffness > 0 && state.yielding_stiffness > 0)) return;
-  state.rest_offset_m = spring.rest_offset_m;
+  if (!(spring.stiffness > 0 && state.yielding_stiffness > 0)) return dropRest(state);
+  state.rest_offset_m = spring.lift_m + state.sharing_m;
+  state.pressed_m = spring.stiffness * spring.lift_m;
   // What the tick has left of the stiffness, for want of energy, stays the same part of it.
   state.stiffness = std::min(1.0, state.stiffness * (spring.stiffness / state.yielding_stiffness));
   state.yielding_stiffness = spring.stiffness;
 }
 
+void dropRest(ProxyState& state) { state.rest_offset_m = state.sharing_m = state.pressed_m = Vec3::Zero(); }
+
 void rememberYielding(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const TickReport& report,
                       const Vec3& finger) {
-  state.yielding.clear();
-  const auto yields = [&](const ProxyContact& contact) {
-    const Instance& instance = scene.instance(contact.primitive);
-    return instance.compliance || state.estimate.key == instance.key ||
-           constantOf(scene, settings.surfaces, contact.primitive, Quantity::kCompliance) > 0;
-  };
-  if (std::none_of(report.contacts.begin(), report.contacts.end(), yields)) return;
-  const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
-  for (std::size_t i = 0; i < report.contacts.size(); ++i) {
-    const ProxyContact& contact = report.contacts[i];
-    state.yielding.push({scene.instance(contact.primitive).key, contact.stiffness,
-                         constantOf(scene, settings.surfaces, contact.primitive, Quantity::kCompliance),
-                         contact.multiplier_m, cosineSquared(parts[i], contact.normal), parts[i], contact.normal});
+  state.yielding =
+      yieldingOf(scene, settings, state.estimate, report.contacts, state.position + state.rest_offset_m - finger);
+  if (state.yielding.empty()) return;
+  if (state.yielding.size() > 1) {  // of rest - finger to those of proxy - finger
+    const PartsAlongNormals offset = partsAlongNormals(report.contacts, state.rest_offset_m);
+    const Vec3 rest = offset.rest / static_cast<double>(report.contacts.size());
+    for (std::size_t i = 0; i < report.contacts.size(); ++i)
+      state.yielding[i].part_m -= offset.along[i] * report.contacts[i].normal + rest;
   }
-  if (state.yielding.size() > 1) addParts(-state.rest_offset_m, state.yielding);
   state.yielding_stiffness = springOf(state, scene, settings).stiffness;
 }
 

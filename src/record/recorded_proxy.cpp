@@ -27,7 +27,7 @@ struct MemoryValues {
 
 // How the spring yields; the contacts are beside it.
 struct YieldingValues {
-  Vec3 rest_offset_m = Vec3::Zero();
+  Vec3 rest_offset_m = Vec3::Zero(), sharing_m = Vec3::Zero(), pressed_m = Vec3::Zero();
   double stiffness = 1;
   ComplianceEstimate estimate;
 };
@@ -77,6 +77,7 @@ void checkYielding(const YieldingContact& in) {
   checkRanges(kYieldingContact, {{"stiffness", in.stiffness, 0, 1},
                                  {"material_m_N", in.material_m_N, 0, kMaxMemory},
                                  {"multiplier_m", in.multiplier_m, -kMaxMemory, kMaxMemory},
+                                 {"share", in.share, 0, 1},
                                  {"along", in.along, 0, 1}});
 }
 
@@ -102,9 +103,13 @@ void readYielding(const proto::RecordedProxy& in, ProxyState& state) {
   YieldingValues values;
   readValues(in.yielding(), kYielding, values);
   checkVector(kYielding, "rest_offset_m", values.rest_offset_m);
+  checkVector(kYielding, "sharing_m", values.sharing_m);
+  checkVector(kYielding, "pressed_m", values.pressed_m);
   checkEstimate(values.estimate);
   checkRanges(kYielding, {{"stiffness", values.stiffness, 0, 1}});
   state.rest_offset_m = values.rest_offset_m;
+  state.sharing_m = values.sharing_m;
+  state.pressed_m = values.pressed_m;
   state.yielding_stiffness = values.stiffness;
   state.estimate = values.estimate;
   for (const proto::Values& one : in.yielding_contacts()) {
@@ -157,7 +162,8 @@ void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
   }
   for (const std::uint64_t key : state.pierced) out.add_pierced(key);
   for (const std::uint64_t key : state.within) out.add_within(key);
-  toProto(valuesOf(YieldingValues{state.rest_offset_m, state.yielding_stiffness, state.estimate}),
+  toProto(valuesOf(YieldingValues{state.rest_offset_m, state.sharing_m, state.pressed_m, state.yielding_stiffness,
+                                  state.estimate}),
           *out.mutable_yielding());
   for (const YieldingContact& contact : state.yielding) toProto(valuesOf(contact), *out.add_yielding_contacts());
 }

@@ -107,6 +107,39 @@ TEST(Tissue, ItSettlesAtTheForceOfBothSpringsInSeries) {
   }
 }
 
+// A mesh that is pressed is a pit: the proxy rests on three of its faces, and the force of the mesh counts once. So it
+// is stable and settles as a floor does, whether C is given or estimated.
+TEST(Tissue, APitSettlesAsAFloorDoes) {
+  constexpr double kSlope = 0.3, kTissue_N_m = 200, kDepth_m = 0.005;
+  const double rest_m = Tissue::kRadius_m * std::hypot(1, kSlope);  // of its faces, that are inclined by it
+  const double expected_N = kK * kDepth_m / (1 + kK / kTissue_N_m);
+  TissueClient client = clientOf(kTissue_N_m, 0);
+  client.surface = {};
+  client.surface.positions.push_back(Vec3::Zero());
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const double angle = 2 * M_PI * i / 3;
+    client.surface.positions.push_back(0.1 * Vec3(std::cos(angle), kSlope / 2, std::sin(angle)));
+    client.surface.triangles.push_back({0, 1 + (i + 1) % 3, 1 + i});
+  }
+  for (const double given : {0.75, 1., 2.}) {
+    client.given_m_N = given / kTissue_N_m;
+    Tissue tissue(client);
+    for (int i = 0; i < 60; ++i) tissue.run({0, rest_m - kDepth_m, 0});
+    EXPECT_NEAR(tissue.force_N().y() / expected_N, 1, 1e-9) << given;
+    tissue.push(1e-6);
+    const double first_N = tissue.run({0, rest_m - kDepth_m, 0}) - expected_N;
+    const double second_N = tissue.run({0, rest_m - kDepth_m, 0}) - expected_N;
+    const double c = 1 / kTissue_N_m, factor = -(c - given * c) / (1 / kK + given * c);
+    EXPECT_NEAR(second_N / first_N, factor, 1e-3) << given;
+  }
+  client.given_m_N.reset();
+  client.moving = 1;
+  Tissue tissue(client);
+  for (int i = 0; i < 150; ++i) tissue.run({0, rest_m - kDepth_m * std::min(1.0, i / 15.0), 0});
+  EXPECT_NEAR(tissue.force_N().y() / expected_N, 1, 0.02);
+  EXPECT_GT(tissue.loop().state().estimate.compliance_m_N, (1 / kTissue_N_m - 1 / kK) / 2);
+}
+
 // The difference of the largest and the smallest force of the last half second.
 double flutter_N(Tissue& tissue, const Vec3& finger) {
   double least = 1e9, most = -1e9;

@@ -1,4 +1,4 @@
-// A client that computes its own deformation, on a virtual clock: a floor of compliance C_t, moved as a whole by frames
+// A client that computes its own deformation, on a virtual clock: a mesh of compliance C_t, moved as a whole by frames
 // that come at a fixed rate and were computed for the force of some frames before.
 #pragma once
 
@@ -23,6 +23,7 @@ struct TissueClient {
   int latency = 1;                    ///< frames from the force to the mesh that was computed for it
   std::optional<double> given_m_N{};  ///< C that it gives; none: it gives nothing
   double moving = 0.5;                ///< part of a frame in which the mesh moves
+  Model surface = floorModel();       ///< of which the proxy touches the point at the origin, or above it
   /// In the place of C_t F: the depth of the floor, m, by the force that a frame was computed for and its length, s.
   std::function<double(double force_N, double frame_s)> depth{};
 };
@@ -101,8 +102,8 @@ class Tissue {
   static constexpr double kRadius_m = 0.002;
 
  private:
-  static Model floorAt(double depth_m, double friction, double x = 0) {
-    Model model = floorModel();
+  Model floorAt(double depth_m, double friction, double x = 0) const {
+    Model model = client_.surface;
     for (Vec3& p : model.positions) p += Vec3(x, -depth_m, 0);
     model.materials[0].static_friction = model.materials[0].dynamic_friction = friction;
     return model;
