@@ -41,9 +41,13 @@ void printBodies(std::size_t bodies, const TraceTotals& totals) {
   const EnergyBook& book = after.book;
   fmt::print(stderr,
              "{} bodies: kinetic energy {:+.6g} mJ, gravity {:+.6g} mJ; by hand {:.6g} mJ; lost in contacts {:.6g} mJ, "
-             "by friction {:.6g} mJ; by the finite step {:+.6g} mJ\n",
+             "by friction {:.6g} mJ; by the finite step {:+.6g} mJ",
              bodies, 1e3 * (after.kinetic_J - before.kinetic_J), 1e3 * (after.gravity_J - before.gravity_J),
              1e3 * book.by_hand_J, 1e3 * book.contact_J, 1e3 * book.friction_J, 1e3 * book.solver_J);
+  const double springs_J = after.spring_J - before.spring_J;
+  if (springs_J != 0 || book.joint_J() != 0)
+    fmt::print(stderr, "; springs {:+.6g} mJ; lost in joints {:.6g} mJ", 1e3 * springs_J, 1e3 * book.joint_J());
+  fmt::print(stderr, "\n");
   if (totals.returned > 0) fmt::print(stderr, "{} times a body left the scene and was put back\n", totals.returned);
 }
 
@@ -53,7 +57,8 @@ void run(const TraceCall& call) {
   const auto snapshot = loadSnapshot(options.scene);
   const std::vector<std::string> bodies = tracedBodies(*snapshot);
   const PathSample& first = path.front();
-  const TraceColumns columns{bodies, !snapshot->snaps.empty(), first.turned.has_value(), first.gripper_rad.has_value()};
+  const TraceColumns columns{bodies, tracedJoints(*snapshot), !snapshot->snaps.empty(), first.turned.has_value(),
+                             first.gripper_rad.has_value()};
   TraceWriter writer(call.out, {options.scene.scene, options.path}, columns);
   const TraceTotals totals =
       runTrace(*snapshot, options.settings, path, [&](const TraceRow& row) { writer.write(row); });

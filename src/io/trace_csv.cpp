@@ -35,20 +35,28 @@ void addBodies(fmt::memory_buffer& line, const TraceRow& row) {
   fmt::format_to(std::back_inserter(line), ",{:016x}", row.world.hash);
 }
 
+void addJoints(fmt::memory_buffer& line, const TraceRow& row) {
+  for (const TracedJoint& joint : row.joints)
+    addNumbers(line, std::array{joint.coordinate, joint.velocity, joint.force});
+  addNumbers(line, std::array{row.world.spring_J, row.world.book.joint_J()});
+}
+
 }  // namespace
 
-std::vector<std::string> columnsOf(const std::vector<std::string>& bodies) {
+TraceColumnNames columnsOf(const TraceColumns& columns) {
   std::set<std::string> taken{"finger", "proxy", "target", "force"};
-  std::vector<std::string> columns;
-  for (std::string name : bodies) {
-    if (name.empty()) name = "body";
+  const auto named = [&](std::string name, const char* otherwise) {
+    if (name.empty()) name = otherwise;
     std::replace_if(
         name.begin(), name.end(), [](unsigned char c) { return c > 127 || (std::isalnum(c) == 0); }, '_');
     std::string column = name;
     for (int number = 2; !taken.insert(column).second; ++number) column = fmt::format("{}_{}", name, number);
-    columns.push_back(column);
-  }
-  return columns;
+    return column;
+  };
+  TraceColumnNames names;
+  for (const std::string& body : columns.bodies) names.bodies.push_back(named(body, "body"));
+  for (const std::string& joint : columns.joints) names.joints.push_back(named(joint, "joint"));
+  return names;
 }
 
 TraceWriter::TraceWriter(const std::string& file, std::initializer_list<std::string> read, const TraceColumns& columns)
@@ -56,11 +64,16 @@ TraceWriter::TraceWriter(const std::string& file, std::initializer_list<std::str
   file_.write(
       "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,target_x,target_y,target_z,force_x,force_y,force_z,"
       "contacts,iterations,injected_J,tick_ns");
-  for (const std::string& column : columnsOf(columns.bodies)) {
+  const TraceColumnNames names = columnsOf(columns);
+  for (const std::string& column : names.bodies) {
     for (const char* part : {"x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"})
       file_.print(",{}_{}", column, part);
   }
   if (!columns.bodies.empty()) file_.write(",kinetic_J,gravity_J,by_hand_J,contact_J,friction_J,solver_J,world_hash");
+  for (const std::string& column : names.joints) {
+    for (const char* part : {"coordinate", "velocity", "force"}) file_.print(",{}_{}", column, part);
+  }
+  if (!columns.joints.empty()) file_.write(",spring_J,joint_J");
   if (columns.snap) file_.write(",snap");
   if (columns.turned) file_.write(",stylus_qw,stylus_qx,stylus_qy,stylus_qz");
   file_.write(columns.gripper ? ",gripper_rad\n" : "\n");
@@ -75,6 +88,7 @@ void TraceWriter::write(const TraceRow& row) {
   }
   fmt::format_to(out, ",{},{},{:.17g},{}", row.contacts, row.iterations, row.injected_J, row.tick_ns);
   if (!row.bodies.empty()) addBodies(line, row);
+  if (!row.joints.empty()) addJoints(line, row);
   if (row.snap) fmt::format_to(std::back_inserter(line), ",{}", *row.snap);
   if (row.turned) addTurn(line, *row.turned);
   if (row.gripper_rad) addNumbers(line, std::array{*row.gripper_rad});

@@ -13,6 +13,7 @@ namespace hl {
 /// What rows have beside the tick's own columns.
 struct TraceColumns {
   std::vector<std::string> bodies{};  ///< their names
+  std::vector<std::string> joints{};  ///< the same
   bool snap = false, turned = false, gripper = false;
 };
 
@@ -29,7 +30,11 @@ class TraceWriter {
   OutputFile file_;
 };
 
-/// What the columns of these bodies begin with: letters, digits and _, each once, and none as the tick's own columns.
-std::vector<std::string> columnsOf(const std::vector<std::string>& bodies);
+/// What the columns of bodies and joints begin with: letters, digits and _, each once, and none as the tick's own
+/// columns.
+struct TraceColumnNames {
+  std::vector<std::string> bodies, joints;
+};
+TraceColumnNames columnsOf(const TraceColumns& columns);
 
 }  // namespace hl

@@ -20,9 +20,17 @@ struct TracedBody {
   Vec3 spin = Vec3::Zero();      ///< rad/s
 };
 
+/// A joint after a tick, along its coordinate: m and N, or rad and N m.
+struct TracedJoint {
+  double coordinate = 0;
+  double velocity = 0;  ///< m/s or rad/s
+  double force = 0;     ///< on body a: of spring, damper, table, friction and limits together
+};
+
 /// All bodies together.
 struct TracedWorld {
   double kinetic_J = 0, gravity_J = 0;
+  double spring_J = 0;     ///< in the springs and tables of joints
   EnergyBook book{};       ///< since the first row
   std::uint64_t hash = 0;  ///< hashOf()
 };
@@ -37,7 +45,9 @@ struct TraceRow {
   std::int64_t tick_ns = 0;  ///< the one column that differs from run to run
 
   std::span<const TracedBody> bodies{};  ///< by key; empty: nothing in the scene moves as a body. Until the next row
-  TracedWorld world{};                   ///< if there are bodies
+  /// Those that have a coordinate, by key; empty: there are none. Until the next row.
+  std::span<const TracedJoint> joints{};
+  TracedWorld world{};  ///< if there are bodies
   /// The snap that holds the proxy, from 1 in the order of the scene; 0: none. Absent: the scene has none.
   std::optional<std::size_t> snap{};
   // Of the stylus, as the path says; absent: it does not.

@@ -48,8 +48,8 @@ class Tracer {
     return found == snaps.end() ? 0 : static_cast<std::size_t>(found - snaps.begin()) + 1;
   }
   const BodyWorld* bodies() const { return bodies_.get(); }
-  /// How the bodies are now.
-  void describe(TraceRow& row) {
+  /// How bodies and joints are now, after a step of `period_s`.
+  void describe(double period_s, TraceRow& row) {
     if (!bodies_) return;
     const World& world = bodies_->world();
     const WorldState& state = bodies_->state();
@@ -58,8 +58,17 @@ class Tracer {
       const BodyState& body = state.bodies[i];
       traced_.push_back({poseOf(world.bodies[i], body).origin, body.turned, body.velocity, body.spin});
     }
+    traced_joints_.clear();
+    for (std::size_t i = 0; i < state.joints.size(); ++i) {
+      const JointState& joint = state.joints[i];
+      if (!hasCoordinate(world.joints[i].kind)) continue;
+      const double impulse = joint.along[0] + joint.along[1] + joint.along[2];
+      traced_joints_.push_back({joint.coordinate, joint.velocity, impulse / period_s});
+    }
     row.bodies = traced_;
-    row.world = {kineticEnergy_J(world, state), gravityEnergy_J(world, state), state.energy, hashOf(world, state)};
+    row.joints = traced_joints_;
+    row.world = {kineticEnergy_J(world, state), gravityEnergy_J(world, state), springEnergy_J(world, state),
+                 state.energy, hashOf(world, state)};
   }
 
  private:
@@ -70,6 +79,7 @@ class Tracer {
   ManyRecentPrimitives recent_;
   ProxyState state_;
   std::vector<TracedBody> traced_;
+  std::vector<TracedJoint> traced_joints_;
 };
 
 }  // namespace
@@ -78,6 +88,21 @@ std::vector<std::string> tracedBodies(const Snapshot& snapshot) {
   std::vector<std::string> names;
   for (const Instance& instance : snapshot.instances) {
     if (instance.movesAsBody()) names.push_back(instance.body->name);
+  }
+  return names;
+}
+
+std::vector<std::string> tracedJoints(const Snapshot& snapshot) {
+  const std::unique_ptr<BodyWorld> bodies = BodyWorld::of(snapshot);
+  std::vector<std::string> names;
+  if (!bodies) return names;
+  for (const Joint& joint : bodies->world().joints) {
+    if (!hasCoordinate(joint.kind)) continue;
+    const std::vector<JointSpec>& specs = snapshot.mechanics.joints;
+    const auto spec = std::find_if(specs.begin(), specs.end(), [&](const JointSpec& one) {
+      return (one.key != 0 ? one.key : static_cast<std::uint64_t>(&one - specs.data()) + 1) == joint.key;
+    });
+    names.push_back(spec == specs.end() ? std::string() : spec->name);
   }
   return names;
 }
@@ -107,7 +132,7 @@ TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, std::
     out.snap = tracer.snap();
     out.turned = path[i].turned;
     out.gripper_rad = path[i].gripper_rad;
-    tracer.describe(out);
+    tracer.describe(period_s, out);
     row(out);
     if (i == 0) totals.before = out.world;
     totals.after = out.world;

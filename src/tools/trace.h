@@ -33,6 +33,8 @@ struct TraceTotals {
 
 /// The names of the bodies that rows have, as TraceRow::bodies.
 std::vector<std::string> tracedBodies(const Snapshot& snapshot);
+/// The same of the joints, as TraceRow::joints.
+std::vector<std::string> tracedJoints(const Snapshot& snapshot);
 
 /// One tick per sample; the proxy starts at the first one. Calls `row` with each result in order.
 TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, std::span<const PathSample> path,

@@ -108,10 +108,11 @@ TEST(TraceCsv, HasTheColumnsOfTheContractAndEveryDigit) {
 }
 
 TEST(TraceCsv, ColumnsOfBodiesHaveNamesThatAHeaderCanHave) {
-  const std::vector<std::string> columns =
-      columnsOf({"ball", "ball", "ball_2", "", "red ball,\"1\"", "force", "kugel \u00e4", "objects[3]"});
-  EXPECT_EQ(columns, (std::vector<std::string>{"ball", "ball_2", "ball_2_2", "body", "red_ball__1_", "force_2",
-                                               "kugel___", "objects_3_"}));
+  const TraceColumnNames columns = columnsOf(
+      {{"ball", "ball", "ball_2", "", "red ball,\"1\"", "force", "kugel \u00e4", "objects[3]"}, {"ball", ""}});
+  EXPECT_EQ(columns.joints, (std::vector<std::string>{"ball_3", "joint"}));
+  EXPECT_EQ(columns.bodies, (std::vector<std::string>{"ball", "ball_2", "ball_2_2", "body", "red_ball__1_", "force_2",
+                                                      "kugel___", "objects_3_"}));
 }
 
 TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
@@ -134,10 +135,24 @@ TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ','));
 }
 
+TEST(TraceCsv, JointsFollowTheBodies) {
+  const TracedBody door{};
+  const TracedJoint hinge{0.5, -2, 0.25};
+  TraceRow row;
+  row.bodies = {&door, 1};
+  row.joints = {&hinge, 1};
+  row.world.spring_J = 7;
+  row.world.book.joint_damping_J = 8;
+  const auto [header, line] = linesWith({{"door"}, {"hinge"}}, row);
+  EXPECT_TRUE(header.ends_with("world_hash,hinge_coordinate,hinge_velocity,hinge_force,spring_J,joint_J"));
+  EXPECT_TRUE(line.ends_with(",0.5,-2,0.25,7,8"));
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ','));
+}
+
 TEST(TraceCsv, TheSnapIsTheLastColumn) {
   TraceRow row;
   row.snap = 3;
-  const auto [header, line] = linesWith({{}, true}, row);
+  const auto [header, line] = linesWith({{}, {}, true}, row);
   EXPECT_TRUE(header.ends_with("tick_ns,snap"));
   EXPECT_TRUE(line.ends_with(",0,3"));
 }
@@ -146,7 +161,7 @@ TEST(TraceCsv, TheStylusOfThePathComesLast) {
   TraceRow row;
   row.turned = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
   row.gripper_rad = 0.25;
-  const auto [header, line] = linesWith({{}, false, true, true}, row);
+  const auto [header, line] = linesWith({{}, {}, false, true, true}, row);
   EXPECT_TRUE(header.ends_with("tick_ns,stylus_qw,stylus_qx,stylus_qy,stylus_qz,gripper_rad"));
   EXPECT_TRUE(line.ends_with(",0,0.5,-0.5,0.5,0.5,0.25"));
 }

@@ -1,6 +1,9 @@
 // Traces of scenes with bodies: where they are reported to be, against closed forms and against what the finger feels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "scene/scene_model.h"
 #include "tools/trace.h"
 
@@ -104,6 +107,42 @@ TEST(TracedBodies, TheEnergyBookClosesAlsoWhereABodyIsPutBack) {
     EXPECT_NEAR(row.world.kinetic_J + row.world.gravity_J, 0.1 * 9.81 * 0.1 + row.world.book.solver_J, 1e-12);
   });
   EXPECT_GT(totals.returned, 3U);
+}
+
+// A pendulum with a spring and a damper: its angle is that of its pose, and the book closes in every row.
+TEST(TracedBodies, JointsHaveTheirCoordinateAndCloseTheBook) {
+  SceneModel model(twoPoints());
+  model.bodies.push_back(bodyOfMass(0.1, Vec3(0.1, 0, 0), BodyShape::kBox));
+  constexpr std::uint64_t kBody = 1;
+  JointSpec hinge;
+  hinge.name = "hinge";
+  hinge.kind = JointKind::kHinge;
+  hinge.body_a = kBody;
+  hinge.axis_W = Vec3::UnitZ();
+  hinge.along.spring = 0.02;
+  hinge.along.damping = 1e-3;
+  model.mechanics.joints = {hinge, {"pin", JointKind::kBall, kBody, 0, Vec3::Zero(), {}, Vec3::UnitX(), {}}};
+  const auto scene = makeSnapshot(std::move(model));
+  EXPECT_EQ(tracedJoints(*scene), (std::vector<std::string>{"hinge"})) << "the other has no coordinate";
+  std::vector<PathSample> path;
+  for (int i = 0; i < 500; ++i) path.push_back({kStep_s * i, Vec3(0.5, 0, 0)});
+  double begin_J = 0, least = 0;
+  const auto energy_J = [](const TraceRow& row) {
+    const TracedWorld& world = row.world;
+    return world.kinetic_J + world.gravity_J + world.spring_J - world.book.change_J();
+  };
+  runTrace(*scene, {}, path, [&](const TraceRow& row) {
+    ASSERT_EQ(row.joints.size(), 1u);
+    const TracedJoint& joint = row.joints[0];
+    if (row.t == 0) begin_J = energy_J(row);
+    EXPECT_NEAR(energy_J(row), begin_J, 1e-12) << row.t;
+    const Vec3 arm = row.bodies[0].turned * Vec3::UnitX();
+    EXPECT_NEAR(joint.coordinate, std::atan2(arm.y(), arm.x()), 1e-9) << row.t;
+    least = std::min(least, joint.coordinate);
+    // That of spring and damper in the middle of the step, to first order in it.
+    EXPECT_NEAR(joint.force, -hinge.along.spring * joint.coordinate - hinge.along.damping * joint.velocity, 2e-3);
+  });
+  EXPECT_LT(least, -0.5) << "it fell";
 }
 
 TEST(TracedBodies, AreTheSameInEachRunAndNoneWithoutBodies) {
