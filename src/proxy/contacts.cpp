@@ -105,8 +105,8 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward
   sort(set);
 }
 
-bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, SweepCache::kRoom>& primitives) {
-  static_assert(SweepCache::kRoom < kMaxContacts, "so that a set with contacts or twins left out has too many");
+bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, cost::kKnownRoom>& primitives) {
+  static_assert(cost::kKnownRoom < kMaxContacts, "so that a set with contacts or twins left out has too many");
   bool all = true;
   for (const Contact& contact : set.contacts) all = all && primitives.push(contact.primitive);
   for (const Contact& twin : set.twins) all = all && primitives.push(twin.primitive);

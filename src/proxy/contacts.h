@@ -53,7 +53,7 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward
                     SweepCache& nearby, ContactSet& set);
 
 /// Lists the contacts and twins of the set. Returns false if there are too many. RT-safe.
-bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, SweepCache::kRoom>& primitives);
+bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, cost::kKnownRoom>& primitives);
 
 /// Whether a contact of the set has this plane, bit by bit. RT-safe.
 bool holdsBy(const ContactSet& set, const Plane& plane);

@@ -1,7 +1,7 @@
 // LookaheadBall: one search for several ticks. If triangles are large compared to the steps of the proxy, a ball ahead
 // of it contains all primitives that the next ticks can touch, and these are few. Until the proxy leaves the ball, the
 // hierarchy is not searched. If triangles are small the ball would contain too many, and each step searches the
-// hierarchy.
+// hierarchy. Where a search makes the primitives anew, as in a volume, it costs more, and the ball may contain more.
 #pragma once
 
 #include "proxy/back_off.h"
@@ -26,7 +26,14 @@ class LookaheadBall {
             const Vec3& motion, SweepCache& nearby);
 
  private:
-  double slack_m(const SceneAt& scene, const ContactSet& set, double touching) const;
+  /// What a ball may be for the search to be worthwhile.
+  struct Limits {
+    double disc_m2 = 0;  ///< area that it cuts out of the plane of a contact
+    double min_ticks = 0;
+    std::size_t max_primitives = 0;
+  };
+  static Limits limitsOf(const SceneAt& scene, const ContactSet& set);
+  double slack_m(const Limits& limits, double touching) const;
 
   Vec3 finger_ = Vec3::Zero();
   double travel_m_ = 0;  // motion of the finger in this tick

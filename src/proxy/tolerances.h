@@ -238,8 +238,11 @@ inline constexpr double kFallPerSlide = 0.02, kFallPerReach = 0.25;
 
 // What is kept of a search for the next one: sweep_cache.h.
 
-/// Primitives. A sweep over a million triangles, each a quarter of the proxy's radius wide, meets three on average.
-inline constexpr std::size_t kSweepRoom = 24;
+/// Primitives, of a sweep or a ball. A sweep over a million triangles, each a quarter of the proxy's radius wide, meets
+/// three on average; a ball in a volume of cells as large contains fifty.
+inline constexpr std::size_t kSweepRoom = 128;
+/// Contacts that a sweep leaves out.
+inline constexpr std::size_t kKnownRoom = 24;
 /// Contacts whose closest points are kept: usually one or two.
 inline constexpr std::size_t kMeasuredRoom = 4;
 
@@ -253,6 +256,10 @@ inline constexpr double kTrianglePerDisc = 0.5;
 inline constexpr std::size_t kMaxBallContacts = 3;
 /// Maximum number of primitives in a useful ball.
 inline constexpr std::size_t kMaxInBall = 8;
+/// The same three where a search makes the primitives of cells: a search of a volume costs as much as 50 tests of
+/// primitives that are known. The disc is in squares of a cell.
+inline constexpr double kMinBallTicksInCells = 2, kDiscPerCell = 8;
+inline constexpr std::size_t kMaxInBallOfCells = 96;
 
 }  // namespace cost
 

@@ -70,7 +70,7 @@ std::optional<SceneImpact> Walk::firstImpact(const ContactSet& set, Along along,
   SweepCache& nearby = cache_.nearby;
   const Tolerances& tolerance = input_.tolerance;
   SceneImpact impact;
-  FixedVector<PrimitiveId, SweepCache::kRoom> known;
+  FixedVector<PrimitiveId, cost::kKnownRoom> known;
   if (!primitivesOf(set, known)) {
     nearby.forget();
     const bool hit = input_.scene.firstImpact(
