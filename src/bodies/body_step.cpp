@@ -242,6 +242,7 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
   for (int time = 0; time < kRestarts && wakePushed(problem_, state); ++time)
     report = findImpulses(state, period_s, hands, given);
   plan_.make(state, report.converged);
+  held_.plan(state);
   bounce(report);
   collectGiven(given);
   book(state.energy, given);

@@ -5,7 +5,7 @@
 
 namespace hl {
 
-HeldBodies::HeldBodies(BodyProblem& problem, const MotionPlan& plan)
+HeldBodies::HeldBodies(BodyProblem& problem, MotionPlan& plan)
     : problem_(problem),
       plan_(plan),
       islands_(problem.bodies()),
@@ -19,65 +19,65 @@ double HeldBodies::kineticEnergy_J(std::size_t body) const {
   return (mass.mass_kg * node.velocity.squaredNorm() + spin.dot(mass.inertia_kg_m2 * spin)) / 2;
 }
 
-// Whether it went a part of its way only in this step and in the one before.
+// Whether it goes a part of its way only in this step, as in the one before.
 bool HeldBodies::isHeld(const WorldState& state, int body) const {
-  return state.bodies[static_cast<std::size_t>(body)].stopped_short > 1;
+  const auto i = static_cast<std::size_t>(body);
+  return state.bodies[i].stopped_short > 0 && plan_.ways().parts[i] < 1;
 }
 
-void HeldBodies::count(WorldState& state) {
-  for (const std::size_t i : problem_.awake) {
-    int& stopped_short = state.bodies[i].stopped_short;
-    stopped_short = plan_.ways().parts[i] < 1 ? stopped_short + 1 : 0;
-  }
-}
-
-// Joined bodies go the same part of their ways, and are one group. One that a joint holds to the world is fixed.
+// Joined bodies go the same part of their ways, and are one group.
 void HeldBodies::findClusters(const WorldState& state) {
   islands_.begin(problem_.bodies());
   for (const std::size_t i : problem_.awake) {
     clusters_[i] = Cluster();
-    if (state.bodies[i].stopped_short > 1) islands_.join(static_cast<int>(i), static_cast<int>(problem_.groups[i]));
+    if (isHeld(state, static_cast<int>(i))) islands_.join(static_cast<int>(i), static_cast<int>(problem_.groups[i]));
+  }
+  const auto among_held = [&](const MotionPlan::Stop& stop) {
+    return stop.b != Row::kFixed && isHeld(state, stop.a) && isHeld(state, stop.b);
+  };
+  for (const MotionPlan::Stop& stop : plan_.stops()) {
+    if (among_held(stop)) islands_.join(stop.a, stop.b);
   }
   for (const MotionPlan::Stop& stop : plan_.stops()) {
-    if (stop.b != Row::kFixed && isHeld(state, stop.a) && isHeld(state, stop.b)) islands_.join(stop.a, stop.b);
+    if (among_held(stop)) clusterOf(static_cast<std::size_t>(stop.a)).sticks = true;
   }
-  const auto cluster_of = [&](int body) -> Cluster& { return clusters_[static_cast<std::size_t>(islands_.of(body))]; };
-  for (const MotionPlan::Stop& stop : plan_.stops()) {
-    if (stop.b != Row::kFixed && isHeld(state, stop.a) && isHeld(state, stop.b)) cluster_of(stop.a).sticks = true;
-  }
-  for (const MotionPlan::Stop& stop : plan_.stops()) {
-    cluster_of(stop.a).stops = true;
-    if (stop.b == Row::kFixed) {
-      cluster_of(stop.a).fixed = true;
-    } else {
-      cluster_of(stop.b).stops = true;
-    }
-  }
-  for (const std::uint32_t number : problem_.awake_joints) {
-    const JointBlock& joint = problem_.joints.blocks[number];
-    if (joint.b == Row::kFixed) cluster_of(joint.a).fixed = true;
-    if (joint.a == Row::kFixed) cluster_of(joint.b).fixed = true;
+}
+
+// By the scene, a hand, what sleeps or a joint to the world.
+void HeldBodies::findFixed() {
+  const auto moves = [&](int node) {
+    return node != Row::kFixed && static_cast<std::size_t>(node) < problem_.bodies() &&
+           problem_.nodes[static_cast<std::size_t>(node)].inverse_mass > 0;
+  };
+  const auto add = [&](int a, int b) {
+    if (moves(a) && !moves(b)) clusterOf(static_cast<std::size_t>(a)).fixed = true;
+    if (moves(b) && !moves(a)) clusterOf(static_cast<std::size_t>(b)).fixed = true;
+  };
+  for (const MotionPlan::Stop& stop : plan_.stops()) add(stop.a, stop.b);
+  for (const std::uint32_t number : problem_.awake_joints)
+    add(problem_.joints.blocks[number].a, problem_.joints.blocks[number].b);
+  for (const Row& row : problem_.rows) {
+    if (row.pressed > 0) add(row.a, row.b);
   }
 }
 
 void HeldBodies::measureClusters(const WorldState& state) {
-  const auto cluster_of = [&](std::size_t body) -> Cluster& {
-    return clusters_[static_cast<std::size_t>(islands_.of(static_cast<int>(body)))];
-  };
   for (const std::size_t i : problem_.awake) {
-    Cluster& cluster = cluster_of(i);
+    clusters_[i].mass_kg = 0;
+    clusters_[i].moment = clusters_[i].momentum = clusters_[i].angular = Vec3::Zero();
+    clusters_[i].inertia.setZero();
+  }
+  for (const std::size_t i : problem_.awake) {
+    Cluster& cluster = clusterOf(i);
     const double mass_kg = problem_.world->bodies[i].mass.mass_kg;
     cluster.mass_kg += mass_kg;
     cluster.moment += mass_kg * problem_.nodes[i].centre;
     cluster.momentum += mass_kg * problem_.nodes[i].velocity;
-  }
-  for (const std::size_t i : problem_.awake) {
-    Cluster& cluster = cluster_of(i);
     cluster.centre = cluster.moment / cluster.mass_kg;
     cluster.velocity = cluster.momentum / cluster.mass_kg;
   }
   for (const std::size_t i : problem_.awake) {
-    Cluster& cluster = cluster_of(i);
+    Cluster& cluster = clusterOf(i);
     const Node& node = problem_.nodes[i];
     const double mass_kg = problem_.world->bodies[i].mass.mass_kg;
     const Mat3 inertia = inertiaOf(problem_.world->bodies[i], state.bodies[i]);
@@ -86,14 +86,40 @@ void HeldBodies::measureClusters(const WorldState& state) {
     cluster.inertia += inertia + mass_kg * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
   }
   for (const std::size_t i : problem_.awake) {
-    Cluster& cluster = clusters_[i];
-    if (cluster.sticks) cluster.spin = cluster.inertia.ldlt().solve(cluster.angular);
+    if (clusters_[i].sticks) clusters_[i].spin = clusters_[i].inertia.ldlt().solve(clusters_[i].angular);
   }
 }
 
-// The part of its velocity that a group keeps. `by_scene`: the scene holds it, or nothing that is known.
-double HeldBodies::keptBy(std::uint32_t group, double part, bool by_scene) const {
-  if (by_scene) return part;
+// Its bodies turn about their common centre of mass, and fall as one.
+bool HeldBodies::goesAsOne(const WorldState& state, int number) {
+  const Cluster& cluster = clusters_[static_cast<std::size_t>(number)];
+  const double period_s = problem_.period_s, angle = period_s * cluster.spin.norm();
+  const Mat3 turn =
+      angle > 0 ? Eigen::AngleAxisd(angle, cluster.spin.normalized()).toRotationMatrix() : Mat3::Identity();
+  const Vec3 way = period_s * cluster.velocity - period_s * period_s / 2 * problem_.world->gravity_m_s2;
+  const auto is_of = [&](std::size_t body) { return islands_.of(static_cast<int>(body)) == number; };
+  return plan_.goOtherwise(state, is_of, [&](std::size_t body) {
+    const Vec3 arm = problem_.nodes[body].centre - cluster.centre;
+    return std::pair(Vec3(way + turn * arm - arm), cluster.spin);
+  });
+}
+
+void HeldBodies::plan(const WorldState& state) {
+  any_ = std::any_of(problem_.awake.begin(), problem_.awake.end(),
+                     [&](std::size_t i) { return plan_.ways().parts[i] < 1; });
+  if (!any_) return;
+  findClusters(state);
+  findFixed();
+  measureClusters(state);
+  for (const std::size_t i : problem_.awake) {
+    Cluster& cluster = clusters_[i];
+    if (cluster.sticks && !cluster.fixed) cluster.fixed = !goesAsOne(state, static_cast<int>(i));
+  }
+}
+
+// The part of its velocity that a group keeps. `held`: by the scene, or by nothing that is known.
+double HeldBodies::keptBy(std::uint32_t group, double part, bool held) const {
+  if (held) return part;
   double kinetic_J = 0, not_fallen_J = 0;
   for (const std::size_t i : problem_.awake) {
     if (problem_.groups[i] != group) continue;
@@ -105,25 +131,26 @@ double HeldBodies::keptBy(std::uint32_t group, double part, bool by_scene) const
 }
 
 void HeldBodies::slow(WorldState& state) {
-  count(state);
-  if (plan_.stops().empty() && std::none_of(problem_.awake.begin(), problem_.awake.end(),
-                                            [&](std::size_t i) { return state.bodies[i].stopped_short > 0; }))
+  if (!any_) {
+    for (const std::size_t i : problem_.awake) state.bodies[i].stopped_short = 0;
     return;
-  findClusters(state);
+  }
   measureClusters(state);
   for (const std::size_t i : problem_.awake) {
-    const BodyState& body = state.bodies[i];
-    if (body.stopped_short == 0) continue;
+    const Cluster& cluster = clusterOf(i);
+    const bool as_one = cluster.sticks && !cluster.fixed;
+    const double part = plan_.ways().parts[i];
+    int& stopped_short = state.bodies[i].stopped_short;
+    stopped_short = part < 1 || as_one ? stopped_short + 1 : 0;
+    if (stopped_short == 0) continue;
     Node& node = problem_.nodes[i];
     const double before_J = kineticEnergy_J(i);
-    const Cluster& cluster = clusters_[static_cast<std::size_t>(islands_.of(static_cast<int>(i)))];
-    if (cluster.sticks && cluster.isFree()) {
+    if (as_one) {
       node.spin = cluster.spin;
       node.velocity = cluster.velocity + cluster.spin.cross(node.centre - cluster.centre);
     } else {
       // The first of a group, which is slowed at once.
-      if (problem_.groups[i] == i)
-        kept_[i] = keptBy(problem_.groups[i], plan_.ways().parts[i], body.stopped_short > 1 && !cluster.isFree());
+      if (problem_.groups[i] == i) kept_[i] = keptBy(problem_.groups[i], part, stopped_short > 1);
       node.velocity *= kept_[problem_.groups[i]];
       node.spin *= kept_[problem_.groups[i]];
     }

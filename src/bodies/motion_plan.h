@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 
 #include "bodies/end_places.h"
 #include "bodies/motion_bounds.h"
@@ -26,6 +27,10 @@ class MotionPlan {
     int a = 0, b = 0;  ///< numbers of bodies; b is Row::kFixed for the scene
   };
   std::span<const Stop> stops() const { return stops_; }
+  /// Whole other ways for some bodies: `is_of(body)` says which, `way_of(body)` the way, m, and the turn, rad/s. False,
+  /// and nothing is changed, if one would then end in something else, or farther off than the bounds. RT-safe.
+  template <typename IsOf, typename WayOf>
+  bool goOtherwise(const WorldState& state, const IsOf& is_of, const WayOf& way_of);
   /// m, of the way that the bodies go.
   Vec3 wayOf(std::size_t body) const { return plan_.parts[body] * plan_.ways[body]; }
 
@@ -39,6 +44,7 @@ class MotionPlan {
   void goPart(std::size_t body, double part);
   void goPart(const Meeting& meeting, double part);
   void limit();
+  bool isWithinBounds(std::size_t body) const;
   void stopShort(const WorldState& state, bool converged);
   double depthAtEnd(const WorldState& state, const Meeting& meeting, double enough);
   double depthOf(const PairAtEnd& pair, const Meeting& meeting, double enough) const;
@@ -66,5 +72,24 @@ class MotionPlan {
   RowSolver sweeps_;
   StepWork work_;
 };
+
+template <typename IsOf, typename WayOf>
+bool MotionPlan::goOtherwise(const WorldState& state, const IsOf& is_of, const WayOf& way_of) {
+  last_plan_ = plan_;
+  bool goes = true;
+  for (const std::size_t i : problem_.awake) {
+    if (!is_of(i)) continue;
+    std::tie(plan_.ways[i], plan_.turns[i]) = way_of(i);
+    plan_.parts[i] = 1;
+    goes &= isWithinBounds(i);
+  }
+  const auto counts = [&](int body) { return body != Row::kFixed && is_of(static_cast<std::size_t>(body)); };
+  for (const Meeting& meeting : problem_.meetings.all()) {
+    if (!goes) break;
+    goes = counts(meeting.a) == counts(meeting.b) || !passes(state, meeting);
+  }
+  if (!goes) plan_ = last_plan_;
+  return goes;
+}
 
 }  // namespace hl

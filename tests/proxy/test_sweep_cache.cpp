@@ -62,7 +62,7 @@ TEST(SweepCache, HoldsTheContactsOfThePlaceWhereASweepEnds) {
       for (int step = 0; step < 6; ++step) {
         ContactSet here, found, searched;
         gatherContacts(scene, place, tolerance.touching, tolerance.reach, here);
-        FixedVector<PrimitiveId, SweepCache::kRoom> contacts;
+        FixedVector<PrimitiveId, cost::kKnownRoom> contacts;
         ASSERT_TRUE(primitivesOf(here, contacts));
         Vec3 motion = random.inCube(0.1);
         for (const Contact& contact : here.contacts)
