@@ -72,4 +72,10 @@ std::string queryBytes(std::string_view target, std::string_view name) {
   return urls::pct_string_view(value).decode();
 }
 
+std::optional<std::string> percentDecoded(std::string_view text) {
+  const auto checked = urls::make_pct_string_view(text);
+  if (!checked) return std::nullopt;
+  return checked->decode();
+}
+
 }  // namespace hl

@@ -34,5 +34,7 @@ std::string hostAndPort(const std::string& host, std::uint16_t port);
 std::string queryValue(std::string_view target, std::string_view name);
 /// The same with percent signs decoded: any bytes.
 std::string queryBytes(std::string_view target, std::string_view name);
+/// With each percent sign and its two digits as the byte that they mean; nothing where some have no digits.
+std::optional<std::string> percentDecoded(std::string_view text);
 
 }  // namespace hl

@@ -22,6 +22,21 @@ constexpr std::size_t kMaxHeader_bytes = 1 << 20;  // comments and all
 struct PlyHeader {
   bool ascii = false;
   std::uint64_t elements = 0;  // of all kinds
+  std::string unknown;         // the first kind of element that is not read
+};
+
+// The reader takes what follows an element that it does not know for that element's, but behind all that it knows.
+class Kinds {
+ public:
+  void add(const std::string& kind, PlyHeader& header) {
+    const bool known = kind == "vertex" || kind == "face" || kind == "edge" || kind == "material";
+    if (kind == "tristrips") throw Error("has triangle strips (tristrips), which are not read: save it with faces");
+    if (!known && unknown_.empty()) unknown_ = kind;
+    if (known && header.unknown.empty()) header.unknown = unknown_;
+  }
+
+ private:
+  std::string unknown_;
 };
 
 // Lines end by LF, CR LF or, in files of old, CR alone: what is between CR and LF is an empty line.
@@ -36,6 +51,7 @@ bool nextLine(std::istream& in, std::string& line) {
 
 PlyHeader headerOf(std::istream& in) {
   PlyHeader header;
+  Kinds kinds;
   std::size_t bytes = 0;
   for (std::string line; bytes < kMaxHeader_bytes && nextLine(in, line); bytes += line.size() + 1) {
     std::istringstream words(line);
@@ -50,6 +66,7 @@ PlyHeader headerOf(std::istream& in) {
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
     if (error != std::errc() || end != number.data() + number.size())
       throw Error(fmt::format("'{}' is no count of elements", shown(number)));
+    if (count > 0) kinds.add(second, header);
     header.elements += std::min(count, std::numeric_limits<std::uint64_t>::max() - header.elements);
   }
   throw Error("its header has no end: the line end_header is missing, or the file is cut");
@@ -67,6 +84,10 @@ std::uint64_t linesLeft(std::istream& in) {
 void checkPly(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   const PlyHeader header = headerOf(in);
+  if (!header.unknown.empty())
+    throw Error(
+        fmt::format("has elements of the kind '{}' before its vertices or faces, which are not read: save it without",
+                    shown(header.unknown)));
   // Of binary files an element has a byte or more.
   if (const std::uintmax_t bytes = std::filesystem::file_size(path); header.elements > bytes)
     throw Error(fmt::format("it is cut: its header tells of {} elements, and it has {} bytes", header.elements, bytes));

@@ -6,7 +6,8 @@
 
 namespace hl {
 
-/// Throws hl::Error for a file whose header does not end, or an ASCII file with fewer lines than elements.
+/// Throws hl::Error for a file whose header does not end, an ASCII file with fewer lines than elements, and a file with
+/// elements that its reader does not know how to pass over.
 void checkPly(const std::string& path);
 
 }  // namespace hl

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/url.h"
 #include "io/text_words.h"
 
 namespace hl {
@@ -42,8 +43,11 @@ std::string companionPath(const std::string& path, const std::string& name) {
   require(!wanted.is_absolute() && !leads_up);
   const fs::path file = folderOf(path) / wanted;
   std::error_code failed;
-  if (!fs::is_regular_file(file, failed))
+  if (!fs::is_regular_file(file, failed)) {
+    const std::optional<std::string> decoded = percentDecoded(name);
+    if (decoded && *decoded != name) return companionPath(path, *decoded);
     throw Error(fmt::format("names '{}', and there is no such file", shown(name)));
+  }
   const std::string real = fs::canonical(file, failed).string();
   require(!failed && isCompanion(path, real));
   return real;

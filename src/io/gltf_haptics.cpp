@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/plain_file.h"
+#include "io/check_gltf.h"
 #include "io/companion_file.h"
 #include "io/load_image.h"
 
@@ -16,16 +17,6 @@ namespace hl {
 namespace {
 
 namespace json = boost::json;
-
-// A .glb starts with "glTF", version, length; then the length and type of the JSON chunk, and the chunk.
-std::string jsonTextOf(const std::string& path) {
-  std::string text = contentOf(path).value_or("");
-  constexpr std::size_t kHeader = 20;
-  if (!text.starts_with("glTF") || text.size() < kHeader) return text;
-  std::uint32_t length = 0;
-  std::memcpy(&length, text.data() + 12, sizeof length);
-  return text.substr(kHeader, length);
-}
 
 // The value at a path of member names, or nullptr.
 const json::value* find(const json::value& value, std::initializer_list<const char*> path) {
@@ -168,7 +159,7 @@ GltfHaptics Reader::read() {
 }  // namespace
 
 GltfHaptics readGltfHaptics(const std::string& path, bool alone) {
-  const std::string text = jsonTextOf(path);
+  const std::string text = gltfJson(path);
   const bool speaks_of_touch = text.find("KHR_physics_rigid_bodies") != std::string::npos ||
                                text.find("MPEG_haptic_material") != std::string::npos;
   if (!speaks_of_touch) return {};

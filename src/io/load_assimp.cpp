@@ -9,13 +9,16 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "base/error.h"
 #include "base/plain_file.h"
+#include "io/check_gltf.h"
 #include "io/check_ply.h"
+#include "io/clean_obj.h"
 #include "io/gltf_haptics.h"
 #include "io/load_model.h"
 #include "io/only_file.h"
@@ -146,12 +149,25 @@ std::string saidOf(const ModelFile& file, std::string text) {
   return text;
 }
 
+// What the file's reader is to find in its place; nothing: the file as it is. assimp also refuses an OBJ file of less
+// than 16 bytes, which one point is: such a file gets blank lines at its end.
+std::optional<std::string> inPlaceOf(const ModelFile& file) {
+  constexpr std::size_t kMinObj = 16;
+  if (file.ending != ".obj") return std::nullopt;
+  const std::string text = contentOf(file.path).value_or("");
+  std::optional<std::string> cleaned = cleanedObj(text);
+  if ((cleaned ? *cleaned : text).size() >= kMinObj) return cleaned;
+  return cleaned.value_or(text) + std::string(kMinObj, '\n');
+}
+
 // The file by its descriptor; from then on nothing else can be opened.
 const aiScene* readAlone(Assimp::Importer& importer, const ModelFile& file, Model& model) {
   const int descriptor = open(file.path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw Error("cannot be opened");
+  const std::optional<std::string> text = inPlaceOf(file);
   if (!forbidOpening()) throw Error(kNoFilters);
   auto* only = new OnlyFile(descriptor, file.ending);
+  if (text) only->replace(*text);
   importer.SetIOHandler(only);  // owned by the importer
   const aiScene* scene = importer.ReadFile(only->name(), aiProcess_Triangulate);
   if (only->missing().empty()) return scene;
@@ -170,17 +186,12 @@ void reportRefused(const std::string& refused, bool read, Model& model) {
   model.warnings.push_back(fmt::format("names '{}', which is not in its folder and is left out", name));
 }
 
-// assimp refuses an OBJ file of less than 16 bytes, which one point is: such a file gets blank lines at its end.
-const aiScene* readScene(Assimp::Importer& importer, const ModelFile& file, Model& model) {
-  constexpr std::size_t kMinObj = 16;
-  std::error_code error;
-  const std::string& path = file.path;
-  if (file.ending == ".ply") checkPly(path);
-  if (file.ending != ".obj" || std::filesystem::file_size(path, error) >= kMinObj || error)
-    return file.alone ? readAlone(importer, file, model) : importer.ReadFile(path, aiProcess_Triangulate);
-  std::string text = contentOf(path).value_or("");
-  text.append(kMinObj, '\n');
-  return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "obj");
+const aiScene* readScene(Assimp::Importer& importer, OwnFolder& folder, const ModelFile& file, Model& model) {
+  if (file.ending == ".ply") checkPly(file.path);
+  if (file.ending == ".gltf" || file.ending == ".glb") checkGltf(file.path);
+  if (file.alone) return readAlone(importer, file, model);
+  if (std::optional<std::string> text = inPlaceOf(file)) folder.replace(std::move(*text));
+  return importer.ReadFile(file.path, aiProcess_Triangulate);
 }
 
 void addScene(const Assimp::Importer& importer, const ModelFile& file, const aiScene* scene, GltfHaptics&& haptics,
@@ -218,15 +229,16 @@ bool assimpReads(const std::string& ending) {
 SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report) {
   std::string refused;
   Assimp::Importer importer;
-  importer.SetProgressHandler(new Progress(report));         // owned by the importer
-  importer.SetIOHandler(new OwnFolder(file.path, refused));  // too; also for what is read from memory
+  importer.SetProgressHandler(new Progress(report));  // owned by the importer
+  auto* folder = new OwnFolder(file.path, refused);
+  importer.SetIOHandler(folder);  // too; also for what is read from memory
   if (file.ending == ".x3d") {
     const std::string text = contentOf(file.path).value_or("");
     if (speaksOfBodies(text)) return readWithBodies(importer, file, text);
   }
   Model model;
   GltfHaptics haptics = hapticsOf(file);
-  const aiScene* scene = readScene(importer, file, model);
+  const aiScene* scene = readScene(importer, *folder, file, model);
   reportRefused(refused, scene != nullptr, model);
   addScene(importer, file, scene, std::move(haptics), model);
   return model;

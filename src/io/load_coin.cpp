@@ -3,10 +3,18 @@
 #include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>
 #include <Inventor/SoPrimitiveVertex.h>
+#include <Inventor/VRMLnodes/SoVRMLCoordinate.h>
+#include <Inventor/VRMLnodes/SoVRMLIndexedShape.h>
 #include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/elements/SoCoordinateElement.h>
 #include <Inventor/errors/SoReadError.h>
+#include <Inventor/nodes/SoIndexedShape.h>
 #include <Inventor/nodes/SoSeparator.h>
 #include <Inventor/nodes/SoShape.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
 
 #include "base/error.h"
 #include "io/load_model.h"
@@ -20,6 +28,7 @@ struct Collector {
   Model model;
   SbMatrix to_world;
   SbMatrix normal_to_world;
+  int left_out = 0;  // shapes whose indices are beyond their points
 };
 
 std::string first_read_error;
@@ -28,8 +37,31 @@ void keepFirstError(const SoError* error, void*) {
   if (first_read_error.empty()) first_read_error = error->getDebugString().getString();
 }
 
-SoCallbackAction::Response beforeShape(void* data, SoCallbackAction* action, const SoNode*) {
+// Coin would read what lies behind the points.
+bool hasItsPoints(SoCallbackAction& action, const SoNode& node) {
+  const SoMFInt32* indices = nullptr;
+  int points = 0;
+  if (node.isOfType(SoVRMLIndexedShape::getClassTypeId())) {
+    const auto& shape = static_cast<const SoVRMLIndexedShape&>(node);
+    const SoNode* const coordinate = shape.coord.getValue();
+    indices = &shape.coordIndex;
+    if (coordinate != nullptr && coordinate->isOfType(SoVRMLCoordinate::getClassTypeId()))
+      points = static_cast<const SoVRMLCoordinate*>(coordinate)->point.getNum();
+  } else if (node.isOfType(SoIndexedShape::getClassTypeId())) {
+    indices = &static_cast<const SoIndexedShape&>(node).coordIndex;
+    points = SoCoordinateElement::getInstance(action.getState())->getNum();
+  }
+  if (indices == nullptr) return true;
+  const std::int32_t* const begin = indices->getValues(0);
+  return std::all_of(begin, begin + indices->getNum(), [&](std::int32_t i) { return i >= -1 && i < points; });
+}
+
+SoCallbackAction::Response beforeShape(void* data, SoCallbackAction* action, const SoNode* node) {
   auto& collector = *static_cast<Collector*>(data);
+  if (!hasItsPoints(*action, *node)) {
+    ++collector.left_out;
+    return SoCallbackAction::PRUNE;
+  }
   collector.to_world = action->getModelMatrix();
   collector.normal_to_world = collector.to_world.inverse().transpose();
   return SoCallbackAction::CONTINUE;
@@ -98,6 +130,9 @@ Model parseWithCoin(const ModelFile& file, const std::function<void(double)>& re
   action.addLineSegmentCallback(SoShape::getClassTypeId(), addSegment, &collector);
   action.addPointCallback(SoShape::getClassTypeId(), addPoint, &collector);
   action.apply(root);
+  if (collector.left_out > 0)
+    collector.model.warnings.push_back(
+        fmt::format("skipped {} shapes with indices of points that do not exist", collector.left_out));
   if (!first_read_error.empty()) collector.model.warnings.push_back("parts were not understood: " + first_read_error);
   return std::move(collector.model);
 }

@@ -1,5 +1,6 @@
 #include "io/only_file.h"
 
+#include <assimp/MemoryIOWrapper.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -71,7 +72,9 @@ bool OnlyFile::Exists(const char* file) const {
 
 Assimp::IOStream* OnlyFile::Open(const char* file, const char* mode) {
   const bool to_read = std::string(mode).find_first_of("wa+") == std::string::npos;
-  return Exists(file) && to_read ? new FileStream(descriptor_) : nullptr;
+  if (!Exists(file) || !to_read) return nullptr;
+  if (text_) return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_->data()), text_->size());
+  return new FileStream(descriptor_);
 }
 
 }  // namespace hl

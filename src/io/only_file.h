@@ -4,8 +4,10 @@
 
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace hl {
 
@@ -17,6 +19,8 @@ class OnlyFile final : public Assimp::IOSystem {
   /// Under which assimp finds a file of this ending.
   static std::string nameOf(const std::string& ending) { return kStem + ending; }
   const std::string& name() const { return name_; }
+  /// From now on this is what the file contains.
+  void replace(std::string text) { text_ = std::move(text); }
   /// Last parts of the names of files that were asked for beside it.
   const std::set<std::string>& missing() const { return missing_; }
 
@@ -32,6 +36,7 @@ class OnlyFile final : public Assimp::IOSystem {
 
   const int descriptor_;
   const std::string name_;
+  std::optional<std::string> text_;
   mutable std::set<std::string> missing_;
 };
 

@@ -262,6 +262,62 @@ TEST(LoadModel, BadNumbersAreSkippedWithACount) {
 constexpr char kPlyHead[] =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
 
+// All of it is valid, and was lost without a word.
+TEST(LoadModel, ObjWithAMarkBlanksBeforeLinesAndCommentsBehindThem) {
+  const std::string obj = "v 0 0 0\n  v 1 0 0\n\tv 0 1 0 # corner\r\n v 5 5 5\n  f 1 2 3 # face\nf 1 2 4\n";
+  const Model model = loadModel(fileWith("marked.obj", "\xef\xbb\xbf" + obj));
+  EXPECT_EQ(model.triangles.size(), 2u);
+  EXPECT_EQ(model.positions.size(), 4u);
+  EXPECT_EQ(model.bounds().max, Vec3(5, 5, 5));
+  EXPECT_EQ(loadModel(fileWith("blank.obj", " " + obj)).triangles.size(), 2u);
+}
+
+TEST(LoadModel, APlyFileWithElementsThatAreNotReadSaysSo) {
+  const std::string format = "ply\nformat ascii 1.0\n", camera = "element camera 1\nproperty float x\n";
+  const std::string vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_index\n", end = "end_header\n";
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n", face = "3 0 1 2\n";
+  const std::string refused = "has elements of the kind 'camera' before";
+  const std::string between = format + vertices + camera + faces + end + points + "7\n" + face;
+  EXPECT_NE(refusalOf(fileWith("c.ply", between)).find(refused), std::string::npos);
+  const std::string first = format + camera + vertices + faces + end + "7\n" + points + face;
+  EXPECT_NE(refusalOf(fileWith("c.ply", first)).find(refused), std::string::npos);
+  const std::string last = format + vertices + faces + camera + end + points + face + "7\n";
+  EXPECT_EQ(loadModel(fileWith("c.ply", last)).triangles.size(), 1u);
+  const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+  EXPECT_NE(refusalOf(fileWith("c.ply", format + vertices + strips + end + points + face)).find("tristrips"),
+            std::string::npos);
+}
+
+TEST(LoadModel, AGltfFileThatNeedsAnUnknownExtensionSaysSo) {
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  fileWith("my buf.bin", std::string(reinterpret_cast<const char*>(corners), sizeof corners));
+  std::string gltf = gltfWith("my%20buf.bin");  // as a URI has it
+  EXPECT_EQ(loadModel(fileWith("uri.gltf", gltf)).triangles.size(), 1u);
+  const auto needing = [&](const std::string& extension) {
+    return fileWith("needs.gltf", "{\"extensionsRequired\":[\"" + extension + "\"]," + gltf.substr(gltf.find('{') + 1));
+  };
+  EXPECT_NE(refusalOf(needing("KHR_mesh_quantization")).find("needs the extension KHR_mesh_quantization"),
+            std::string::npos);
+  EXPECT_EQ(loadModel(needing("KHR_materials_unlit")).triangles.size(), 1u);
+}
+
+TEST(LoadModel, AVrmlShapeWithPointsThatDoNotExistIsLeftOut) {
+  const std::string begin =
+      "#VRML V2.0 utf8\nShape { geometry Box {} }\nShape { geometry IndexedFaceSet { coord Coordinate ";
+  const auto with = [&](const std::string& index) {
+    return loadModel(
+        fileWith("i.wrl", begin + "{ point [0 0 0, 1 0 0, 0 1 0] } coordIndex [0 1 " + index + " -1] } }\n"));
+  };
+  EXPECT_EQ(with("2").triangles.size(), 13u);
+  for (const char* index : {"3", "5000", "-7"}) {
+    const Model model = with(index);
+    EXPECT_EQ(model.triangles.size(), 12u) << index;
+    ASSERT_EQ(model.warnings.size(), 1u) << index;
+    EXPECT_EQ(model.warnings[0], "skipped 1 shapes with indices of points that do not exist");
+  }
+}
+
 TEST(LoadModel, VerticesAloneArePoints) {
   const Model ply = loadModel(fileWith("p.ply", std::string(kPlyHead) + "end_header\n0 0 0\n1 0 0\n0 1 0\n"));
   EXPECT_EQ(ply.points.size(), 3u);
