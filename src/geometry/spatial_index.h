@@ -49,8 +49,8 @@ class SpatialIndex {
     double limit = farthest;
     return overlap(centre, farthest, [&](ElementId primitive) { limit = visit(primitive, limit); });
   }
-  /// m: the size of a cell, of a structure that makes its primitives anew in each search; 0: they are stored. It affects
-  /// only the computing time.
+  /// m: the size of a cell, of a structure that makes its primitives anew in each search; 0: they are stored. It
+  /// affects only the computing time.
   virtual double cellSize_m() const { return 0; }
   virtual IndexStats stats() const = 0;
 };
