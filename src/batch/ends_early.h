@@ -11,16 +11,16 @@ namespace hl {
 /// become true. What they have written by then is unfinished.
 class EndsEarly {
  public:
-  explicit EndsEarly(const std::atomic<bool>& stop) { stop_ = &stop; }
+  explicit EndsEarly(const std::atomic<bool>& stop) { of_this_thread = &stop; }
   EndsEarly(const EndsEarly&) = delete;
   EndsEarly& operator=(const EndsEarly&) = delete;
-  ~EndsEarly() { stop_ = nullptr; }
+  ~EndsEarly() { of_this_thread = nullptr; }
 
   /// Of this thread; null: none.
-  static const std::atomic<bool>* ofThisThread() { return stop_; }
+  static const std::atomic<bool>* ofThisThread() { return of_this_thread; }
 
  private:
-  inline static thread_local const std::atomic<bool>* stop_ = nullptr;
+  inline static thread_local const std::atomic<bool>* of_this_thread = nullptr;
 };
 
 /// `stop`: null: never.

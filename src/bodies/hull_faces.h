@@ -25,6 +25,7 @@ std::vector<HalfSpace> unitHullPlanes(const std::vector<Vec3>& points);
 /// Some of the points.
 inline std::vector<Vec3> pointsOf(const std::vector<Vec3>& points, const std::vector<std::size_t>& numbers) {
   std::vector<Vec3> some;
+  some.reserve(numbers.size());
   for (const std::size_t number : numbers) some.push_back(points[number]);
   return some;
 }

@@ -168,7 +168,7 @@ void HeightPyramid::measure(const HeightGrid& grid) {
 HeightSlab HeightPyramid::joined(int level, std::uint32_t column, std::uint32_t row, const GridSize& size) const {
   const Level& in = levels_[static_cast<std::size_t>(level)];
   const std::uint32_t i1 = std::min((column + 1) * kBlocks, in.columns), j1 = std::min((row + 1) * kBlocks, in.rows);
-  const auto forEach = [&](const auto& visit) {
+  const auto for_each = [&](const auto& visit) {
     for (std::uint32_t j = row * kBlocks; j < j1; ++j) {
       for (std::uint32_t i = column * kBlocks; i < i1; ++i) {
         if (const HeightSlab& slab = in.slabs[std::size_t{j} * in.columns + i]; !slab.empty()) visit(slab, i, j);
@@ -177,7 +177,7 @@ HeightSlab HeightPyramid::joined(int level, std::uint32_t column, std::uint32_t 
   };
   double across = 0, down = 0;
   int used = 0;
-  forEach([&](const HeightSlab& slab, std::uint32_t, std::uint32_t) {
+  for_each([&](const HeightSlab& slab, std::uint32_t, std::uint32_t) {
     across += slab.slope_column;
     down += slab.slope_row;
     ++used;
@@ -186,7 +186,7 @@ HeightSlab HeightPyramid::joined(int level, std::uint32_t column, std::uint32_t 
   HeightSlab all{0, 0, static_cast<float>(across / used), static_cast<float>(down / used)};
   const auto cells = static_cast<double>(side(level));
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  forEach([&](const HeightSlab& slab, std::uint32_t i, std::uint32_t j) {
+  for_each([&](const HeightSlab& slab, std::uint32_t i, std::uint32_t j) {
     const WideSlab rest{slab.low, slab.high, double{slab.slope_column} - all.slope_column,
                         double{slab.slope_row} - all.slope_row};
     const double columns = std::min(cells, size.columns - 1 - cells * i);

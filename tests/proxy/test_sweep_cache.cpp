@@ -123,8 +123,9 @@ TEST(SweepCache, CoversNothingOfAnotherPlaceSceneOrTime) {
 
 TEST(SweepCache, MoreThanItHasRoomForIsNotCovered) {
   std::vector<std::array<Vec3, 3>> fan;
-  for (int i = 0; i < 40; ++i) {
-    const double a = 2 * M_PI * i / 40, b = 2 * M_PI * (i + 1) / 40;
+  constexpr int kFaces = SweepCache::kRoom + 8;
+  for (int i = 0; i < kFaces; ++i) {
+    const double a = 2 * M_PI * i / kFaces, b = 2 * M_PI * (i + 1) / kFaces;
     fan.push_back({Vec3::Zero(), {std::cos(a), std::sin(a), -1}, {std::cos(b), std::sin(b), -1}});
   }
   const auto snapshot = judge::scene(judge::triangles(fan));
@@ -135,7 +136,7 @@ TEST(SweepCache, MoreThanItHasRoomForIsNotCovered) {
     EXPECT_FALSE(report.capped());
     EXPECT_NEAR(state.position.z(), kRadius, 1e-6);
   }
-  // A place on the tip touches all forty.
+  // A place on the tip touches all of them.
   const Tolerances tolerance = Tolerances::of(kRadius, 1);
   SweepCache nearby;
   ContactSet set;

@@ -184,7 +184,7 @@ TEST_F(RecordedBodies, AreReproducedBitForBitWhileScenesChange) {
   double moved_m = 0;
   {
     Stirred session(toFile());
-    session.run(4000);
+    session.run(6000);
     EXPECT_GT(session.onBodies(), 20);
     EXPECT_GT(session.snapped(), 200);
     EXPECT_GT(session.drawn(), 200);
@@ -194,8 +194,8 @@ TEST_F(RecordedBodies, AreReproducedBitForBitWhileScenesChange) {
   }
   EXPECT_GT(moved_m, 0.02);
   const ReplayReport report = replay(path);
-  EXPECT_EQ(report.ticks, 4000U);
-  EXPECT_EQ(report.scenes, 11U);
+  EXPECT_EQ(report.ticks, 6000U);
+  EXPECT_EQ(report.scenes, 16U);
   expectReproduced(report);
 }
 

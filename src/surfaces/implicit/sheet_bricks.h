@@ -61,9 +61,9 @@ class SheetBricks {
     cost_ += kCostOfCell;
     const IsoCell cell = sheet_.cellAt(at);
     if (cell.triangles == nullptr) return;
-    const auto toObject = [this](const Vec3& p) { return frame_.point(p.x(), p.y(), p.z()); };
+    const auto to_object = [this](const Vec3& p) { return frame_.point(p.x(), p.y(), p.z()); };
     const CellVertices places(CellVertices(cell), [this](const Vec3& place) { return sheet_.grid().at(place); });
-    const CellVertices vertices(places, toObject);
+    const CellVertices vertices(places, to_object);
     const std::optional<BallTriangles> near = trianglesNear();
     for (unsigned n = 0; n < cell.triangles->count; ++n) {
       const auto& edges = cell.triangles->edges[n];
@@ -73,7 +73,7 @@ class SheetBricks {
       looks_ += kLooksOfCut * pieces.looks;
       for (std::size_t piece = 0; piece < pieces.count; ++piece) {
         std::array<Vec3, 3> triangle;
-        for (std::size_t i = 0; i < 3; ++i) triangle[i] = toObject(pieces.triangles[piece][i]);
+        for (std::size_t i = 0; i < 3; ++i) triangle[i] = to_object(pieces.triangles[piece][i]);
         if (!isTriangle(triangle[0], triangle[1], triangle[2])) continue;
         if (near && pieces.count > 1 && !near->meets(triangle)) continue;
         visit(SheetTriangle{sheet_.number(), at, n, static_cast<unsigned>(piece)}.id(), triangle);

@@ -72,7 +72,7 @@ double SheetList::growthOf(std::size_t number, const SheetMeasure& measure) cons
 // The bound must hold a cell beside the sheet, so it is found once to know how large cells are, and once more. There it
 // may turn out that the sheet is nowhere after all: what is left of a sheet just within another body.
 void SheetList::add(std::size_t number, std::size_t most_looks) {
-  const auto stepFor = [&](const SheetMeasure& measure) {
+  const auto step_for = [&](const SheetMeasure& measure) {
     const double largest = kOfSize * measure.bounds.size().maxCoeff();
     if (!(measure.bend_per_m > 0)) return largest;
     const double most_error = spec.error_m / growthOf(number, measure);
@@ -87,14 +87,14 @@ void SheetList::add(std::size_t number, std::size_t most_looks) {
   }
   if (measure.bounds.empty()) return;
   double step = 0;
-  double margin = std::isfinite(measure.bend_per_m) ? kMargin * stepFor(measure) : 0;
+  double margin = std::isfinite(measure.bend_per_m) ? kMargin * step_for(measure) : 0;
   for (int attempt = 0; attempt < (step > 0 ? kMaxAttempts : kMaxPatience) && step < margin / kMinMargin;
        ++attempt, margin *= 0.5) {
     search.widen(margin);
     search.refine(most_looks / 3);
     const SheetMeasure wide = search.result();
     if (wide.bounds.empty()) return;
-    const double possible = std::min(stepFor(wide), margin / kMinMargin);
+    const double possible = std::min(step_for(wide), margin / kMinMargin);
     if (!(std::isfinite(wide.bend_per_m) && possible > step)) continue;
     step = possible;
     measure = wide;
