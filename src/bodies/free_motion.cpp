@@ -19,15 +19,6 @@ constexpr double kMaxTurn_rad = 1e6;
 constexpr double kTurnOfPart_rad = 0.01;
 constexpr double kMaxPartsOfStep = 16;
 
-// The rotation by |turn| rad about its direction.
-Eigen::Quaterniond exponential(const Vec3& whole_turn) {
-  const Vec3 turn = limited(whole_turn, kMaxTurn_rad);
-  const double angle = turn.norm();
-  if (!(angle > 0)) return Eigen::Quaterniond::Identity();
-  const Vec3 axis = plain::sin(angle / 2) / angle * turn;
-  return {plain::cos(angle / 2), axis.x(), axis.y(), axis.z()};
-}
-
 // Jacobi's method: a pair of axes is turned until their product of inertia is nothing, again and again.
 Mat3 diagonalized(Mat3& inertia) {
   constexpr int kSweeps = 10;
@@ -58,7 +49,7 @@ struct Turning {
   // A part of the turn; what the momentum is in the world stays.
   void turn(const AxisTurn& turn, double part = 1) {
     const Vec3 by_rad = part * turn.per_momentum * momentum[turn.axis] * Vec3::Unit(turn.axis);
-    const Eigen::Quaterniond by = exponential(by_rad);
+    const Eigen::Quaterniond by = rotationBy(by_rad);
     turned = turned * by;
     momentum = by.conjugate() * momentum;
   }
@@ -91,6 +82,14 @@ Eigen::Quaterniond turnAboutAxes(const Vec3& inverse_moments, const Vec3& moment
 
 }  // namespace
 
+Eigen::Quaterniond rotationBy(const Vec3& whole_turn_rad) {
+  const Vec3 turn = limited(whole_turn_rad, kMaxTurn_rad);
+  const double angle = turn.norm();
+  if (!(angle > 0)) return Eigen::Quaterniond::Identity();
+  const Vec3 axis = plain::sin(angle / 2) / angle * turn;
+  return {plain::cos(angle / 2), axis.x(), axis.y(), axis.z()};
+}
+
 PrincipalAxes principalAxesOf(const Mass& mass) {
   Mat3 inertia = mass.inertia_kg_m2;
   const Mat3 axes = diagonalized(inertia);
@@ -115,7 +114,7 @@ void moveFreely(const PrincipalAxes& body, BodyState& state, const Vec3& way, do
   const Vec3 momentum_along = body.moments_kg_m2.cwiseProduct(from_axes.conjugate() * state.spin);
   const Vec3 momentum = from_axes * momentum_along;
   const Eigen::Quaterniond about_axes = turnAboutAxes(inverse, momentum_along, period_s);
-  const Eigen::Quaterniond about_momentum = exponential(period_s * inverse[1] * momentum);
+  const Eigen::Quaterniond about_momentum = rotationBy(period_s * inverse[1] * momentum);
   state.turned = (about_momentum * state.turned * (body.axes * about_axes * body.axes.conjugate())).normalized();
   const Eigen::Quaterniond to_world = state.turned * body.axes;
   state.spin = to_world * inverse.cwiseProduct(to_world.conjugate() * momentum);

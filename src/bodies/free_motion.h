@@ -17,4 +17,7 @@ PrincipalAxes principalAxesOf(const Mass& mass);
 /// energy of another one oscillates with the square of the step, and does not drift. RT-safe.
 void moveFreely(const PrincipalAxes& body, BodyState& state, const Vec3& way, double period_s);
 
+/// The rotation by |turn| rad about its direction, the same bits on every machine; of very large turns a part. RT-safe.
+Eigen::Quaterniond rotationBy(const Vec3& turn_rad);
+
 }  // namespace hl

@@ -93,9 +93,8 @@ void HeldBodies::measureClusters(const WorldState& state) {
 // Its bodies turn about their common centre of mass, and fall as one.
 bool HeldBodies::goesAsOne(const WorldState& state, int number) {
   const Cluster& cluster = clusters_[static_cast<std::size_t>(number)];
-  const double period_s = problem_.period_s, angle = period_s * cluster.spin.norm();
-  const Mat3 turn =
-      angle > 0 ? Eigen::AngleAxisd(angle, cluster.spin.normalized()).toRotationMatrix() : Mat3::Identity();
+  const double period_s = problem_.period_s;
+  const Eigen::Quaterniond turn = rotationBy(period_s * cluster.spin);
   const Vec3 way = period_s * cluster.velocity - period_s * period_s / 2 * problem_.world->gravity_m_s2;
   const auto is_of = [&](std::size_t body) { return islands_.of(static_cast<int>(body)) == number; };
   return plan_.goOtherwise(state, is_of, [&](std::size_t body) {
