@@ -19,10 +19,10 @@ double HeldBodies::kineticEnergy_J(std::size_t body) const {
   return (mass.mass_kg * node.velocity.squaredNorm() + spin.dot(mass.inertia_kg_m2 * spin)) / 2;
 }
 
-// Whether it goes a part of its way only in this step, as in the one before.
+// Whether it goes a part of its way only in this step, as in the one before. What sleeps does not go.
 bool HeldBodies::isHeld(const WorldState& state, int body) const {
   const auto i = static_cast<std::size_t>(body);
-  return state.bodies[i].stopped_short > 0 && plan_.ways().parts[i] < 1;
+  return state.bodies[i].island == 0 && state.bodies[i].stopped_short > 0 && plan_.ways().parts[i] < 1;
 }
 
 // Joined bodies go the same part of their ways, and are one group.
@@ -38,6 +38,7 @@ void HeldBodies::findClusters(const WorldState& state) {
   for (const MotionPlan::Stop& stop : plan_.stops()) {
     if (among_held(stop)) islands_.join(stop.a, stop.b);
   }
+  // When all are joined.
   for (const MotionPlan::Stop& stop : plan_.stops()) {
     if (among_held(stop)) clusterOf(static_cast<std::size_t>(stop.a)).sticks = true;
   }
@@ -62,32 +63,39 @@ void HeldBodies::findFixed() {
 }
 
 void HeldBodies::measureClusters(const WorldState& state) {
-  for (const std::size_t i : problem_.awake) {
-    clusters_[i].mass_kg = 0;
-    clusters_[i].moment = clusters_[i].momentum = clusters_[i].angular = Vec3::Zero();
-    clusters_[i].inertia.setZero();
-  }
-  for (const std::size_t i : problem_.awake) {
-    Cluster& cluster = clusterOf(i);
-    const double mass_kg = problem_.world->bodies[i].mass.mass_kg;
+  const auto for_each_stuck = [&](const auto& act) {
+    for (const std::size_t i : problem_.awake) {
+      if (Cluster& cluster = clusterOf(i); cluster.sticks)
+        act(cluster, i, problem_.nodes[i], problem_.world->bodies[i].mass.mass_kg);
+    }
+  };
+  const auto for_each_cluster = [&](const auto& act) {
+    for (const std::size_t i : problem_.awake) {
+      if (clusters_[i].sticks) act(clusters_[i]);
+    }
+  };
+  for_each_cluster([](Cluster& cluster) {
+    const bool fixed = cluster.fixed;
+    cluster = Cluster();
+    cluster.sticks = true;
+    cluster.fixed = fixed;
+  });
+  for_each_stuck([](Cluster& cluster, std::size_t, const Node& node, double mass_kg) {
     cluster.mass_kg += mass_kg;
-    cluster.moment += mass_kg * problem_.nodes[i].centre;
-    cluster.momentum += mass_kg * problem_.nodes[i].velocity;
-    cluster.centre = cluster.moment / cluster.mass_kg;
-    cluster.velocity = cluster.momentum / cluster.mass_kg;
-  }
-  for (const std::size_t i : problem_.awake) {
-    Cluster& cluster = clusterOf(i);
-    const Node& node = problem_.nodes[i];
-    const double mass_kg = problem_.world->bodies[i].mass.mass_kg;
-    const Mat3 inertia = inertiaOf(problem_.world->bodies[i], state.bodies[i]);
+    cluster.centre += mass_kg * node.centre;
+    cluster.velocity += mass_kg * node.velocity;
+  });
+  for_each_cluster([](Cluster& cluster) {
+    cluster.centre /= cluster.mass_kg;
+    cluster.velocity /= cluster.mass_kg;
+  });
+  for_each_stuck([&](Cluster& cluster, std::size_t body, const Node& node, double mass_kg) {
+    const Mat3 inertia = inertiaOf(problem_.world->bodies[body], state.bodies[body]);
     const Vec3 arm = node.centre - cluster.centre;
-    cluster.angular += inertia * node.spin + mass_kg * arm.cross(node.velocity - cluster.velocity);
+    cluster.angular_momentum += inertia * node.spin + mass_kg * arm.cross(node.velocity - cluster.velocity);
     cluster.inertia += inertia + mass_kg * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
-  }
-  for (const std::size_t i : problem_.awake) {
-    if (clusters_[i].sticks) clusters_[i].spin = clusters_[i].inertia.ldlt().solve(clusters_[i].angular);
-  }
+  });
+  for_each_cluster([](Cluster& cluster) { cluster.spin = cluster.inertia.ldlt().solve(cluster.angular_momentum); });
 }
 
 // Its bodies turn about their common centre of mass, and fall as one.

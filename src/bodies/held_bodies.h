@@ -29,12 +29,11 @@ class HeldBodies {
   struct Cluster {
     bool sticks = false;  // bodies are in each other's way
     bool fixed = false;   // something that does not move holds one of them
+    // Of what sticks: measureClusters().
     double mass_kg = 0;
-    Vec3 moment = Vec3::Zero();    // kg m
-    Vec3 momentum = Vec3::Zero();  // kg m/s
-    Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero(), angular = Vec3::Zero();
-    Vec3 spin = Vec3::Zero();
-    Mat3 inertia = Mat3::Zero();
+    Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();        // m, m/s
+    Vec3 angular_momentum = Vec3::Zero(), spin = Vec3::Zero();  // kg m^2/s about the centre, rad/s
+    Mat3 inertia = Mat3::Zero();                                // kg m^2, the same
   };
 
   Cluster& clusterOf(std::size_t body) {
@@ -45,7 +44,7 @@ class HeldBodies {
   void findFixed();
   void measureClusters(const WorldState& state);
   bool goesAsOne(const WorldState& state, int cluster);
-  double keptBy(std::uint32_t group, double part, bool by_scene) const;
+  double keptBy(std::uint32_t group, double part, bool held) const;
   double kineticEnergy_J(std::size_t body) const;
 
   BodyProblem& problem_;

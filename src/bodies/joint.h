@@ -50,6 +50,11 @@ struct JointState {
   double spare_J = 0;
 };
 
+/// N or N m, the mean of a step of this length, on body a along the coordinate: of all that acts there. RT-safe.
+inline double forceAlong(const JointState& state, double period_s) {
+  return (state.along[0] + state.along[1] + state.along[2]) / period_s;
+}
+
 /// A joint of two bodies where they are now, with coordinate 0 there. Poses: object to world; pose_b is the identity
 /// for the world.
 Joint jointAt(JointKind kind, const Vec3& anchor_W, const Vec3& axis_W, const Pose& pose_a, const Pose& pose_b = {});

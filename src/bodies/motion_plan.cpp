@@ -172,14 +172,14 @@ void MotionPlan::goPart(const Meeting& meeting, double part) {
   if (problem_.groups[a] != problem_.groups[b]) goPart(b, part);
 }
 
-bool MotionPlan::isWithinBounds(std::size_t body) const {
-  const double way = plan_.ways[body].norm() + problem_.period_s * plan_.turns[body].norm() * problem_.reachOf(body);
-  return way <= bounds_.ways().bodies[body];
+// m, of the whole way of any of its points.
+double MotionPlan::farthestOf(std::size_t body) const {
+  return plan_.ways[body].norm() + problem_.period_s * plan_.turns[body].norm() * problem_.reachOf(body);
 }
 
 void MotionPlan::limit() {
   for (const std::size_t i : problem_.awake) {
-    const double way = plan_.ways[i].norm() + problem_.period_s * plan_.turns[i].norm() * problem_.reachOf(i);
+    const double way = farthestOf(i);
     const double most = bounds_.ways().bodies[i];
     if (plan_.parts[i] * way > most) goPart(i, most / way / plan_.parts[i]);
   }

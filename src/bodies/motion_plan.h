@@ -44,7 +44,7 @@ class MotionPlan {
   void goPart(std::size_t body, double part);
   void goPart(const Meeting& meeting, double part);
   void limit();
-  bool isWithinBounds(std::size_t body) const;
+  double farthestOf(std::size_t body) const;
   void stopShort(const WorldState& state, bool converged);
   double depthAtEnd(const WorldState& state, const Meeting& meeting, double enough);
   double depthOf(const PairAtEnd& pair, const Meeting& meeting, double enough) const;
@@ -81,7 +81,7 @@ bool MotionPlan::goOtherwise(const WorldState& state, const IsOf& is_of, const W
     if (!is_of(i)) continue;
     std::tie(plan_.ways[i], plan_.turns[i]) = way_of(i);
     plan_.parts[i] = 1;
-    goes &= isWithinBounds(i);
+    goes &= farthestOf(i) <= bounds_.ways().bodies[i];
   }
   const auto counts = [&](int body) { return body != Row::kFixed && is_of(static_cast<std::size_t>(body)); };
   for (const Meeting& meeting : problem_.meetings.all()) {

@@ -50,8 +50,7 @@ std::string gltfJson(const std::string& path) {
   return text.substr(kHeader, length);
 }
 
-void checkGltf(const std::string& path) {
-  const std::string text = gltfJson(path);
+void checkGltf(const std::string& text) {
   if (text.find("extensionsRequired") == std::string::npos) return;
   json::error_code error;
   const json::value file = json::parse(text, error);

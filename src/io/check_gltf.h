@@ -8,8 +8,8 @@ namespace hl {
 
 /// The JSON of a .gltf or .glb file; empty if it cannot be opened.
 std::string gltfJson(const std::string& path);
-/// Throws hl::Error for a file that needs an extension which is not read: what it changes of the shape would be
-/// missing.
-void checkGltf(const std::string& path);
+/// `text`: gltfJson(). Throws hl::Error for one that needs an extension which is not read: what it changes of the shape
+/// would be missing.
+void checkGltf(const std::string& text);
 
 }  // namespace hl

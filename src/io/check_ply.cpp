@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 #include "base/error.h"
 #include "io/text_words.h"
@@ -21,23 +22,23 @@ constexpr std::size_t kMaxHeader_bytes = 1 << 20;  // comments and all
 
 struct PlyHeader {
   bool ascii = false;
-  std::uint64_t elements = 0;  // of all kinds
-  std::string unknown;         // the first kind of element that is not read
+  std::uint64_t elements = 0;      // of all kinds
+  std::vector<std::string> kinds;  // of which there are some, in their order
 };
 
-// The reader takes what follows an element that it does not know for that element's, but behind all that it knows.
-class Kinds {
- public:
-  void add(const std::string& kind, PlyHeader& header) {
-    const bool known = kind == "vertex" || kind == "face" || kind == "edge" || kind == "material";
-    if (kind == "tristrips") throw Error("has triangle strips (tristrips), which are not read: save it with faces");
-    if (!known && unknown_.empty()) unknown_ = kind;
-    if (known && header.unknown.empty()) header.unknown = unknown_;
-  }
-
- private:
-  std::string unknown_;
-};
+// What follows an element that the reader does not know is taken for that element's; what it knows may come before.
+void checkKinds(const std::vector<std::string>& kinds) {
+  const auto is_known = [](const std::string& kind) {
+    return kind == "vertex" || kind == "face" || kind == "edge" || kind == "material";
+  };
+  if (std::find(kinds.begin(), kinds.end(), "tristrips") != kinds.end())
+    throw Error("has triangle strips (tristrips), which are not read: save it with faces");
+  const auto unknown = std::find_if_not(kinds.begin(), kinds.end(), is_known);
+  if (std::any_of(unknown, kinds.end(), is_known))
+    throw Error(
+        fmt::format("has elements of the kind '{}' before its vertices or faces, which are not read: save it without",
+                    shown(*unknown)));
+}
 
 // Lines end by LF, CR LF or, in files of old, CR alone: what is between CR and LF is an empty line.
 bool nextLine(std::istream& in, std::string& line) {
@@ -51,7 +52,6 @@ bool nextLine(std::istream& in, std::string& line) {
 
 PlyHeader headerOf(std::istream& in) {
   PlyHeader header;
-  Kinds kinds;
   std::size_t bytes = 0;
   for (std::string line; bytes < kMaxHeader_bytes && nextLine(in, line); bytes += line.size() + 1) {
     std::istringstream words(line);
@@ -66,7 +66,7 @@ PlyHeader headerOf(std::istream& in) {
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
     if (error != std::errc() || end != number.data() + number.size())
       throw Error(fmt::format("'{}' is no count of elements", shown(number)));
-    if (count > 0) kinds.add(second, header);
+    if (count > 0) header.kinds.push_back(second);
     header.elements += std::min(count, std::numeric_limits<std::uint64_t>::max() - header.elements);
   }
   throw Error("its header has no end: the line end_header is missing, or the file is cut");
@@ -84,10 +84,7 @@ std::uint64_t linesLeft(std::istream& in) {
 void checkPly(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   const PlyHeader header = headerOf(in);
-  if (!header.unknown.empty())
-    throw Error(
-        fmt::format("has elements of the kind '{}' before its vertices or faces, which are not read: save it without",
-                    shown(header.unknown)));
+  checkKinds(header.kinds);
   // Of binary files an element has a byte or more.
   if (const std::uintmax_t bytes = std::filesystem::file_size(path); header.elements > bytes)
     throw Error(fmt::format("it is cut: its header tells of {} elements, and it has {} bytes", header.elements, bytes));

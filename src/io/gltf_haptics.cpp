@@ -4,11 +4,8 @@
 #include <boost/json.hpp>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "base/error.h"
-#include "base/plain_file.h"
-#include "io/check_gltf.h"
 #include "io/companion_file.h"
 #include "io/load_image.h"
 
@@ -158,8 +155,7 @@ GltfHaptics Reader::read() {
 
 }  // namespace
 
-GltfHaptics readGltfHaptics(const std::string& path, bool alone) {
-  const std::string text = gltfJson(path);
+GltfHaptics readGltfHaptics(const std::string& text, const std::string& path, bool alone) {
   const bool speaks_of_touch = text.find("KHR_physics_rigid_bodies") != std::string::npos ||
                                text.find("MPEG_haptic_material") != std::string::npos;
   if (!speaks_of_touch) return {};

@@ -20,11 +20,11 @@ struct GltfHaptics {
   std::vector<std::string> warnings;
 };
 
-/// Reads the JSON of a .gltf or .glb file. A node's material is that of its collider (KHR) or of its mesh (MPEG; wins).
-/// Nodes without a name, or with one that several have, are left out with a warning: they could not be distinguished
-/// later. MPEG gives no units: a texture's range is 0..1 unless its `extras` have "low" and "high"; its one friction is
-/// both static and dynamic. Images must be files, and of one that comes `alone` there are none. Never throws for what
-/// is missing or strange, only warns.
-GltfHaptics readGltfHaptics(const std::string& path, bool alone = false);
+/// `text`: the JSON of the .gltf or .glb file at `path` (gltfJson()). A node's material is that of its collider (KHR)
+/// or of its mesh (MPEG; wins). Nodes without a name, or with one that several have, are left out with a warning: they
+/// could not be distinguished later. MPEG gives no units: a texture's range is 0..1 unless its `extras` have "low" and
+/// "high"; its one friction is both static and dynamic. Images must be files, and of one that comes `alone` there are
+/// none. Never throws for what is missing or strange, only warns.
+GltfHaptics readGltfHaptics(const std::string& text, const std::string& path, bool alone = false);
 
 }  // namespace hl

@@ -112,7 +112,10 @@ void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& paren
 }
 
 GltfHaptics hapticsOf(const ModelFile& file) {
-  return file.ending == ".gltf" || file.ending == ".glb" ? readGltfHaptics(file.path, file.alone) : GltfHaptics{};
+  if (file.ending != ".gltf" && file.ending != ".glb") return {};
+  const std::string json = gltfJson(file.path);
+  checkGltf(json);
+  return readGltfHaptics(json, file.path, file.alone);
 }
 
 // Lists that would say "material 0" for every element are left out.
@@ -164,10 +167,10 @@ std::optional<std::string> inPlaceOf(const ModelFile& file) {
 const aiScene* readAlone(Assimp::Importer& importer, const ModelFile& file, Model& model) {
   const int descriptor = open(file.path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw Error("cannot be opened");
-  const std::optional<std::string> text = inPlaceOf(file);
+  std::optional<std::string> text = inPlaceOf(file);
   if (!forbidOpening()) throw Error(kNoFilters);
   auto* only = new OnlyFile(descriptor, file.ending);
-  if (text) only->replace(*text);
+  if (text) only->replace(std::move(*text));
   importer.SetIOHandler(only);  // owned by the importer
   const aiScene* scene = importer.ReadFile(only->name(), aiProcess_Triangulate);
   if (only->missing().empty()) return scene;
@@ -188,7 +191,6 @@ void reportRefused(const std::string& refused, bool read, Model& model) {
 
 const aiScene* readScene(Assimp::Importer& importer, OwnFolder& folder, const ModelFile& file, Model& model) {
   if (file.ending == ".ply") checkPly(file.path);
-  if (file.ending == ".gltf" || file.ending == ".glb") checkGltf(file.path);
   if (file.alone) return readAlone(importer, file, model);
   if (std::optional<std::string> text = inPlaceOf(file)) folder.replace(std::move(*text));
   return importer.ReadFile(file.path, aiProcess_Triangulate);

@@ -30,6 +30,11 @@ std::string OwnFolder::found(const std::string& file) const {
   return decoded ? begin + *decoded : file;
 }
 
+bool OwnFolder::Exists(const char* file) const {
+  const std::string name = found(file);
+  return isOwn(name) && DefaultIOSystem::Exists(name.c_str());
+}
+
 Assimp::IOStream* OwnFolder::Open(const char* file, const char* mode) {
   const bool to_read = std::string(mode).find_first_of("wa+") == std::string::npos;
   const std::string name = found(file);

@@ -11,7 +11,7 @@ class BrickIndex final : public WalkedIndex {
   /// The cells must outlive it. `bounds`: of the surface, m. Takes no memory: the pyramid is the volume's.
   BrickIndex(const IsoCells& cells, const Box& bounds);
 
-  double cellSize_m() const override { return cells_.frame().axes.colwise().norm().maxCoeff(); }
+  double cellSize_m() const override { return cell_m(); }
   IndexStats stats() const override;
 
  private:

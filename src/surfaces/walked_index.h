@@ -27,6 +27,8 @@ class WalkedIndex : public SpatialIndex {
   virtual std::size_t walk(const GridBall& ball, Visit visit) const = 0;
   /// m per step along each axis: shortestStep().
   const Vec3& scale() const { return scale_; }
+  /// m, size of a cell.
+  double cell_m() const { return cell_; }
 
  private:
   const Box bounds_;

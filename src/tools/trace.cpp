@@ -1,6 +1,7 @@
 #include "tools/trace.h"
 
 #include <algorithm>
+#include <map>
 
 #include "base/clock.h"
 #include "bodies/world_hash.h"
@@ -62,8 +63,7 @@ class Tracer {
     for (std::size_t i = 0; i < state.joints.size(); ++i) {
       const JointState& joint = state.joints[i];
       if (!hasCoordinate(world.joints[i].kind)) continue;
-      const double impulse = joint.along[0] + joint.along[1] + joint.along[2];
-      traced_joints_.push_back({joint.coordinate, joint.velocity, impulse / period_s});
+      traced_joints_.push_back({joint.coordinate, joint.velocity, forceAlong(joint, period_s)});
     }
     row.bodies = traced_;
     row.joints = traced_joints_;
@@ -92,18 +92,21 @@ std::vector<std::string> tracedBodies(const Snapshot& snapshot) {
   return names;
 }
 
+// As the world of the bodies has them, whose making may take long.
 std::vector<std::string> tracedJoints(const Snapshot& snapshot) {
-  const std::unique_ptr<BodyWorld> bodies = BodyWorld::of(snapshot);
-  std::vector<std::string> names;
-  if (!bodies) return names;
-  for (const Joint& joint : bodies->world().joints) {
-    if (!hasCoordinate(joint.kind)) continue;
-    const std::vector<JointSpec>& specs = snapshot.mechanics.joints;
-    const auto spec = std::find_if(specs.begin(), specs.end(), [&](const JointSpec& one) {
-      return (one.key != 0 ? one.key : static_cast<std::uint64_t>(&one - specs.data()) + 1) == joint.key;
-    });
-    names.push_back(spec == specs.end() ? std::string() : spec->name);
+  const auto moves = [&](std::uint64_t key) {
+    return std::any_of(snapshot.instances.begin(), snapshot.instances.end(),
+                       [&](const Instance& instance) { return instance.key == key && instance.movesAsBody(); });
+  };
+  std::map<std::uint64_t, std::string> by_key;
+  std::uint64_t place = 0;
+  for (const JointSpec& joint : snapshot.mechanics.joints) {
+    ++place;
+    if (hasCoordinate(joint.kind) && (moves(joint.body_a) || moves(joint.body_b)))
+      by_key[joint.key != 0 ? joint.key : place] = joint.name;
   }
+  std::vector<std::string> names;
+  for (const auto& [key, name] : by_key) names.push_back(name);
   return names;
 }
 

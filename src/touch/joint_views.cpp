@@ -23,7 +23,7 @@ ShownJoint shownOf(const Joint& joint, const JointPlace& place, const JointState
   if (!hasCoordinate(joint.kind)) return shown;
   shown.coordinate = state.coordinate;
   shown.velocity = state.velocity;
-  shown.force = (state.along[0] + state.along[1] + state.along[2]) / period_s;
+  shown.force = forceAlong(state, period_s);
   return shown;
 }
 
