@@ -82,8 +82,11 @@ inline double Surface::number(Quantity quantity) const {
 /// Of the quantities that no texture modulates and that are 0 by default (adhesion, compliance, strength): the value of
 /// this one on the surface of a primitive. RT-safe.
 inline double constantOf(const SceneAt& scene, const MaterialOverride& set, PrimitiveId id, Quantity quantity) {
-  if (scene.instance(id).plain && !set.number(static_cast<std::size_t>(quantity))) return 0;
-  return Surface(scene, set, id).plain(quantity);
+  const auto i = static_cast<std::size_t>(quantity);
+  if (const auto& said = set.number(i)) return *said;
+  const Instance& instance = scene.instance(id);
+  if (instance.plain) return 0;
+  return instance.surfaces->materials[scene.shape(id).materialOf(id.element)].*kMaterialNumbers[i];
 }
 
 inline SurfaceValue Surface::read(Quantity quantity) const {

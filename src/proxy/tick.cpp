@@ -191,15 +191,19 @@ void Tick::close(TickReport& report) {
   // No plane with a shading normal holds the proxy here: use the true planes.
   if (proposal_.active.empty() && !at_finger) constraints_.nearestTo(gap, proposal_);
   const TickEnd end = !proposal_.active.empty() ? TickEnd::kContact : at_finger ? TickEnd::kOpen : TickEnd::kOnItsWay;
+  MeanStiffness surfaces;
   EnergyBooking::Causes causes{proposal_.shading, proposal_.bump, false};
   for (const ActiveContact& active : proposal_.active) {
     ProxyContact contact = rules_.describe(constraints_.set(), active);
     contact.multiplier_m /= input_.far.part(input_.finger - state_.position);
     report.contacts.push(contact);
+    surfaces.add(contact.multiplier_m, contact.stiffness);
     causes.stiffness_textured |= rules_.stiffnessTextured(active.place.primitive);
   }
-  MeanStiffness surfaces = yieldingStiffness(input_.scene, input_.settings, state_.estimate, report.contacts,
-                                             state_.position - input_.finger);
+  report.yields = anyYields(input_.scene, input_.settings, state_.estimate, report.contacts);
+  if (report.yields)
+    surfaces = yieldingStiffness(input_.scene, input_.settings, state_.estimate, report.contacts,
+                                 state_.position - input_.finger);
   if (end == TickEnd::kOnItsWay) {
     for (const ActiveContact& active : last_active_)
       surfaces.add(active.multiplier_m, rules_.stiffnessAt(active.place));

@@ -63,6 +63,7 @@ struct TickReport {
   std::size_t work = 0;  ///< cost of the tick, in bounding volumes (work.h)
   int looks = 0;         ///< number of times that contacts were gathered
   int used_up_at = 0;    ///< number of looks after which the work limit was reached; 0: not reached
+  bool yields = false;   ///< one of the contacts yields (yielding.h)
   bool stayed = false;   ///< no work was left while a surface held the proxy: it is where and as it was
   Ending ending = Ending::kGoesOn;
   /// `earlier` looks of attempts whose result does not count were made before, in the same tick.

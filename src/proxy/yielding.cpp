@@ -52,18 +52,14 @@ bool sameObject(const Instance& a, const Instance& b) {
          (a.compliance && b.compliance && a.object != 0 && a.object == b.object && a.session == b.session);
 }
 
-// The contacts, of which the whole pull is along `e`; none if none of them yields.
-YieldingContacts yieldingOf(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
+double materialOf_m_N(const SceneAt& scene, const ProxySettings& settings, const ProxyContact& contact) {
+  return constantOf(scene, settings.surfaces, contact.primitive, Quantity::kCompliance);
+}
+
+// The contacts, of which the whole pull is along `e`.
+YieldingContacts yieldingOf(const SceneAt& scene, const ProxySettings& settings,
                             const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e) {
-  const auto material_m_N = [&](const ProxyContact& contact) {
-    return constantOf(scene, settings.surfaces, contact.primitive, Quantity::kCompliance);
-  };
-  const auto yields = [&](const ProxyContact& contact) {
-    const Instance& instance = scene.instance(contact.primitive);
-    return instance.compliance || estimate.key == instance.key || material_m_N(contact) > 0;
-  };
   YieldingContacts yielding;
-  if (std::none_of(contacts.begin(), contacts.end(), yields)) return yielding;
   const ContactParts parts = partsOf(contacts, e);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ProxyContact& contact = contacts[i];
@@ -72,8 +68,8 @@ YieldingContacts yieldingOf(const SceneAt& scene, const ProxySettings& settings,
     for (std::size_t k = 0; k < contacts.size(); ++k)
       of_object[k] = sameObject(instance, scene.instance(contacts[k].primitive));
     const JointContact object = jointContact(contacts, parts, of_object);
-    yielding.push({instance.key, contact.stiffness, material_m_N(contact), contact.multiplier_m, object.shares[i],
-                   cosineSquared(object.part, object.normal), parts[i], object.normal});
+    yielding.push({instance.key, contact.stiffness, materialOf_m_N(scene, settings, contact), contact.multiplier_m,
+                   object.shares[i], cosineSquared(object.part, object.normal), parts[i], object.normal});
   }
   return yielding;
 }
@@ -112,17 +108,23 @@ YieldingSpring springOf(const ProxyState& state, const SceneAt& scene, const Pro
 
 }  // namespace
 
+bool anyYields(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
+               const FixedVector<ProxyContact, kMaxActive>& contacts) {
+  for (const ProxyContact& contact : contacts) {
+    const Instance& instance = scene.instance(contact.primitive);
+    if (instance.compliance || estimate.key == instance.key || materialOf_m_N(scene, settings, contact) > 0)
+      return true;
+  }
+  return false;
+}
+
 MeanStiffness yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
                                 const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e) {
   MeanStiffness mean;
-  const YieldingContacts yielding = yieldingOf(scene, settings, estimate, contacts, e);
+  const YieldingContacts yielding = yieldingOf(scene, settings, contacts, e);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const ProxyContact& contact = contacts[i];
-    double stiffness = contact.stiffness;
-    if (!yielding.empty())
-      stiffness = stiffnessOf(yielding[i], yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate),
-                              settings.springInWorld_N_m());
-    mean.add(contact.multiplier_m, stiffness);
+    const ObjectYielding object = yieldingAt(scene.instance(contacts[i].primitive), scene.time_ns(), estimate);
+    mean.add(contacts[i].multiplier_m, stiffnessOf(yielding[i], object, settings.springInWorld_N_m()));
   }
   return mean;
 }
@@ -167,9 +169,9 @@ void dropRest(ProxyState& state) { state.rest_offset_m = state.sharing_m = state
 
 void rememberYielding(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const TickReport& report,
                       const Vec3& finger) {
-  state.yielding =
-      yieldingOf(scene, settings, state.estimate, report.contacts, state.position + state.rest_offset_m - finger);
-  if (state.yielding.empty()) return;
+  const bool may_yield = report.yields || state.estimate.key != 0;  // the estimate may be newer than the report
+  if (!may_yield || !anyYields(scene, settings, state.estimate, report.contacts)) return state.yielding.clear();
+  state.yielding = yieldingOf(scene, settings, report.contacts, state.position + state.rest_offset_m - finger);
   if (state.yielding.size() > 1) {  // of rest - finger to those of proxy - finger
     const PartsAlongNormals offset = partsAlongNormals(report.contacts, state.rest_offset_m);
     const Vec3 rest = offset.rest / static_cast<double>(report.contacts.size());

@@ -29,7 +29,12 @@
 
 namespace hl {
 
-/// Stiffness s of contacts, of which the whole pull is along `e`: rest of the spring - finger. RT-safe.
+/// Whether a contact yields, by its object or by its material. RT-safe.
+bool anyYields(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
+               const FixedVector<ProxyContact, kMaxActive>& contacts);
+
+/// Stiffness s of contacts of which one yields, of which the whole pull is along `e`: rest of the spring - finger.
+/// RT-safe.
 MeanStiffness yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
                                 const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e);
 
@@ -44,7 +49,8 @@ void yieldToFrames(ProxyState& state, const SceneAt& scene, const ProxySettings&
 /// The spring is fixed at the proxy again. RT-safe.
 void dropRest(ProxyState& state);
 
-/// After a tick to `finger`, or to where a snap drew it: remembers the contacts, if one of them yields. RT-safe.
+/// After a tick to `finger`, or to where a snap drew it: remembers the contacts, if one of them yields
+/// (TickReport::yields). RT-safe.
 void rememberYielding(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const TickReport& report,
                       const Vec3& finger);
 
