@@ -1,5 +1,4 @@
 // Model files through assimp: the scene graph flattened into one model.
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -11,11 +10,14 @@
 #include <new>
 #include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/plain_file.h"
+#include "geometry/polygon.h"
 #include "io/check_gltf.h"
 #include "io/check_ply.h"
 #include "io/clean_obj.h"
@@ -27,11 +29,14 @@
 #include "io/sandbox.h"
 #include "io/text_words.h"
 #include "io/x3d_bodies.h"
+#include "io/x3d_document.h"
+#include "io/x3d_plain.h"
 
 namespace hl {
 
 namespace {
 
+constexpr unsigned kAsWritten = 0;  // for assimp: no steps after reading
 constexpr int kDeepestNode = 1000;  // deeper nesting is an attack on the stack, not a model
 
 class Progress final : public Assimp::ProgressHandler {
@@ -58,10 +63,19 @@ Eigen::Matrix4d matrixOf(const aiMatrix4x4& m) {
 
 Vec3 vecOfAssimp(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
+void appendPolygon(Model& model, const aiMesh& mesh, const aiFace& face, std::uint32_t base) {
+  const std::span<const unsigned> indices(face.mIndices, face.mNumIndices);
+  std::vector<Vec3> corners;
+  for (const unsigned index : indices) corners.push_back(vecOfAssimp(mesh.mVertices[index]));
+  for (const auto& [a, b, c] : trianglesOf(corners))
+    model.triangles.push_back({base + indices[a], base + indices[b], base + indices[c]});
+}
+
 void appendFaces(Model& model, const aiMesh& mesh, std::uint32_t base, std::uint16_t material) {
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
     const auto at = [&](unsigned k) { return base + face.mIndices[k]; };
+    if (face.mNumIndices > 3) appendPolygon(model, mesh, face, base);
     if (face.mNumIndices == 3) model.triangles.push_back({at(0), at(1), at(2)});
     if (face.mNumIndices == 2) model.segments.push_back({at(0), at(1)});
     if (face.mNumIndices == 1) model.points.push_back(at(0));
@@ -154,25 +168,26 @@ std::string saidOf(const ModelFile& file, std::string text) {
 
 // What the file's reader is to find in its place; nothing: the file as it is. assimp also refuses an OBJ file of less
 // than 16 bytes, which one point is: such a file gets blank lines at its end.
-std::optional<std::string> inPlaceOf(const ModelFile& file) {
+std::optional<std::string> inPlaceOf(const ModelFile& file, std::vector<std::string>& warnings) {
   constexpr std::size_t kMinObj = 16;
-  if (file.ending != ".obj") return std::nullopt;
+  if (file.ending != ".obj" && file.ending != ".x3d") return std::nullopt;
   const std::string text = contentOf(file.path).value_or("");
+  if (file.ending == ".x3d") return text.size() > kMaxX3dBytes ? std::nullopt : std::optional(plainX3d(text, warnings));
   std::optional<std::string> cleaned = cleanedObj(text);
   if ((cleaned ? *cleaned : text).size() >= kMinObj) return cleaned;
   return cleaned.value_or(text) + std::string(kMinObj, '\n');
 }
 
 // The file by its descriptor; from then on nothing else can be opened.
-const aiScene* readAlone(Assimp::Importer& importer, const ModelFile& file, Model& model) {
+const aiScene* readAlone(Assimp::Importer& importer, const ModelFile& file, std::optional<std::string>&& text,
+                         Model& model) {
   const int descriptor = open(file.path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw Error("cannot be opened");
-  std::optional<std::string> text = inPlaceOf(file);
   if (!forbidOpening()) throw Error(kNoFilters);
   auto* only = new OnlyFile(descriptor, file.ending);
   if (text) only->replace(std::move(*text));
   importer.SetIOHandler(only);  // owned by the importer
-  const aiScene* scene = importer.ReadFile(only->name(), aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(only->name(), kAsWritten);
   if (only->missing().empty()) return scene;
   const std::string missing = listOf(only->missing());
   if (scene == nullptr)
@@ -189,11 +204,12 @@ void reportRefused(const std::string& refused, bool read, Model& model) {
   model.warnings.push_back(fmt::format("names '{}', which is not in its folder and is left out", name));
 }
 
-const aiScene* readScene(Assimp::Importer& importer, OwnFolder& folder, const ModelFile& file, Model& model) {
+const aiScene* readScene(Assimp::Importer& importer, OwnFolder& folder, const ModelFile& file,
+                         std::optional<std::string>&& text, Model& model) {
   if (file.ending == ".ply") checkPly(file.path);
-  if (file.alone) return readAlone(importer, file, model);
-  if (std::optional<std::string> text = inPlaceOf(file)) folder.replace(std::move(*text));
-  return importer.ReadFile(file.path, aiProcess_Triangulate);
+  if (file.alone) return readAlone(importer, file, std::move(text), model);
+  if (text) folder.replace(std::move(*text));
+  return importer.ReadFile(file.path, kAsWritten);
 }
 
 void addScene(const Assimp::Importer& importer, const ModelFile& file, const aiScene* scene, GltfHaptics&& haptics,
@@ -215,8 +231,8 @@ SceneModel readWithBodies(Assimp::Importer& importer, const ModelFile& file, con
   if (file.alone && !forbidOpening()) throw Error(kNoFilters);
   return readX3dBodies(text, [&](const std::string& document) {
     Model model;
-    addScene(importer, file,
-             importer.ReadFileFromMemory(document.data(), document.size(), aiProcess_Triangulate, "x3d"), {}, model);
+    addScene(importer, file, importer.ReadFileFromMemory(document.data(), document.size(), kAsWritten, "x3d"), {},
+             model);
     return model;
   });
 }
@@ -234,13 +250,15 @@ SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(doubl
   importer.SetProgressHandler(new Progress(report));  // owned by the importer
   auto* folder = new OwnFolder(file.path, refused);
   importer.SetIOHandler(folder);  // too; also for what is read from memory
-  if (file.ending == ".x3d") {
-    const std::string text = contentOf(file.path).value_or("");
-    if (speaksOfBodies(text)) return readWithBodies(importer, file, text);
-  }
   Model model;
+  std::optional<std::string> in_place = inPlaceOf(file, model.warnings);
+  if (file.ending == ".x3d" && in_place && speaksOfBodies(*in_place)) {
+    SceneModel scene = readWithBodies(importer, file, *in_place);
+    scene.model.warnings.insert(scene.model.warnings.begin(), model.warnings.begin(), model.warnings.end());
+    return scene;
+  }
   GltfHaptics haptics = hapticsOf(file);
-  const aiScene* scene = readScene(importer, *folder, file, model);
+  const aiScene* scene = readScene(importer, *folder, file, std::move(in_place), model);
   reportRefused(refused, scene != nullptr, model);
   addScene(importer, file, scene, std::move(haptics), model);
   return model;

@@ -64,26 +64,6 @@ void checkDepth(const std::string& text) {
   }
 }
 
-X3dTree treeOf(const std::string& text) {
-  namespace xml = boost::property_tree::xml_parser;
-  if (text.size() > kMaxX3dBytes) throw Error("is larger than 256 MB, which is too much for X3D with bodies");
-  checkDepth(text);
-  X3dTree tree;
-  std::istringstream in(text);
-  try {
-    xml::read_xml(in, tree, xml::no_comments | xml::trim_whitespace);
-  } catch (const xml::xml_parser_error& error) {
-    throw Error("is no XML: line " + std::to_string(error.line()) + ": " + error.message());
-  }
-  return tree;
-}
-
-std::string xmlOf(const X3dTree& tree) {
-  std::ostringstream out;
-  boost::property_tree::xml_parser::write_xml(out, tree);
-  return out.str();
-}
-
 // The definitions that are left come to the first of their USEs, where their own place is no longer there.
 class Restorer {
  public:
@@ -127,6 +107,37 @@ void collectNodes(const X3dTree& parent, std::string_view type, std::vector<cons
 
 }  // namespace
 
+X3dTree parseX3d(const std::string& text) {
+  namespace xml = boost::property_tree::xml_parser;
+  if (text.size() > kMaxX3dBytes) throw Error("is larger than 256 MB, which is too much for X3D");
+  checkDepth(text);
+  X3dTree tree;
+  std::istringstream in(text);
+  try {
+    xml::read_xml(in, tree, xml::no_comments | xml::trim_whitespace);
+  } catch (const xml::xml_parser_error& error) {
+    throw Error("is no XML: line " + std::to_string(error.line()) + ": " + error.message());
+  }
+  return tree;
+}
+
+std::string textOfX3d(const X3dTree& tree) {
+  std::ostringstream out;
+  boost::property_tree::xml_parser::write_xml(out, tree);
+  return out.str();
+}
+
+void setX3dField(X3dTree& node, const std::string& name, const std::string& value) {
+  if (node.count(kAttributes) == 0) node.push_front({kAttributes, X3dTree()});
+  X3dTree& fields = node.find(kAttributes)->second;
+  const auto field = fields.find(name);
+  if (field != fields.not_found()) {
+    field->second.data() = value;
+  } else {
+    fields.push_back({name, X3dTree(value)});
+  }
+}
+
 std::optional<std::string> x3dField(const X3dNode& node, const std::string& name) {
   const auto attributes = node.second.find(kAttributes);
   if (attributes == node.second.not_found()) return std::nullopt;
@@ -134,6 +145,8 @@ std::optional<std::string> x3dField(const X3dNode& node, const std::string& name
   if (field == attributes->second.not_found()) return std::nullopt;
   return field->second.data();
 }
+
+bool isX3dElement(const X3dNode& node) { return !node.first.empty() && node.first.front() != '<'; }
 
 std::string nameOfX3d(const X3dNode& node) {
   const auto name = x3dField(node, x3dField(node, "DEF") ? "DEF" : "USE");
@@ -146,7 +159,7 @@ bool isX3d(const X3dNode& node, std::initializer_list<std::string_view> types) {
   return std::find(types.begin(), types.end(), node.first) != types.end();
 }
 
-X3dDocument::X3dDocument(const std::string& text) : tree_(treeOf(text)) { addNames(tree_); }
+X3dDocument::X3dDocument(const std::string& text) : tree_(parseX3d(text)) { addNames(tree_); }
 
 // Of two with one name the first counts.
 void X3dDocument::addNames(const X3dTree& parent) {
@@ -176,14 +189,14 @@ std::string X3dDocument::textOf(const X3dNode& node) const {
   X3dTree document;
   document.put("X3D.<xmlattr>.version", "3.3");
   document.put_child("X3D.Scene", scene);
-  return xmlOf(document);
+  return textOfX3d(document);
 }
 
 std::string X3dDocument::textWithout(const X3dNodes& taken) const {
   X3dTree rest;
   removeTaken(*this, tree_, taken, rest);
   Restorer(*this).restore(rest);
-  return xmlOf(rest);
+  return textOfX3d(rest);
 }
 
 std::vector<const X3dNode*> X3dDocument::all(std::string_view type) const {

@@ -22,11 +22,20 @@ using X3dTree = boost::property_tree::ptree;
 using X3dNode = X3dTree::value_type;
 using X3dNodes = std::set<const X3dNode*>;
 
-inline constexpr std::size_t kMaxX3dBytes = std::size_t{256} << 20;  ///< of a file; its tree takes several times that
+inline constexpr std::size_t kMaxX3dBytes = std::size_t{256} << 20;  ///< of a text; its tree takes several times that
 inline constexpr double kFarthestX3d_m = 1e6;                        ///< of places that are read, along each axis
+
+/// The nodes of a text. Throws hl::Error, one line, for what is no XML, too large or nested too deep. There are no
+/// entities but those of XML.
+X3dTree parseX3d(const std::string& text);
+std::string textOfX3d(const X3dTree& tree);
 
 /// A field as it is written, or nothing.
 std::optional<std::string> x3dField(const X3dNode& node, const std::string& name);
+/// Sets a field of the node whose fields and children these are.
+void setX3dField(X3dTree& node, const std::string& name, const std::string& value);
+/// Whether it is a node: not the fields of one, nor text.
+bool isX3dElement(const X3dNode& node);
 /// For warnings: "RigidBody 'door'".
 std::string nameOfX3d(const X3dNode& node);
 /// For people: its DEF, or its type.
@@ -35,8 +44,7 @@ bool isX3d(const X3dNode& node, std::initializer_list<std::string_view> types);
 
 class X3dDocument {
  public:
-  /// Throws hl::Error, one line, for what is no XML, too large or nested too deep. There are no entities but those of
-  /// XML.
+  /// Throws as parseX3d().
   explicit X3dDocument(const std::string& text);
   X3dDocument(const X3dDocument&) = delete;
   X3dDocument& operator=(const X3dDocument&) = delete;

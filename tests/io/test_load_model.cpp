@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -45,6 +46,30 @@ TEST(LoadModel, ObjKeepsPolygonsNormalsAndTexcoords) {
   const auto corner = model.triangles[0][0];
   EXPECT_EQ(model.normals[corner], Vec3::UnitZ());
   EXPECT_NEAR(model.texcoords[corner].x(), 0.25, 1e-6);
+}
+
+double areaOf(const Model& model) {
+  double sum = 0;
+  for (const auto& [a, b, c] : model.triangles)
+    sum += (model.positions[b] - model.positions[a]).cross(model.positions[c] - model.positions[a]).norm() / 2;
+  return sum;
+}
+
+// The reflex corner (2, 2) lies on the diagonal of an ear; the square has 16, the notch 4.
+TEST(LoadModel, APolygonKeepsItsNotch) {
+  const std::string points = "0 0 0\n4 0 0\n4 4 0\n2 2 0\n0 4 0\n";
+  const std::string obj = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 2 0\nv 0 4 0\nf 1 2 3 4 5\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+      points + "5 0 1 2 3 4\n";
+  const std::string x3d =
+      "<X3D version='3.3'><Scene><Shape><IndexedFaceSet convex='false' coordIndex='0 1 2 3 4 -1'>"
+      "<Coordinate point='0 0 0 4 0 0 4 4 0 2 2 0 0 4 0'/></IndexedFaceSet></Shape></Scene></X3D>";
+  for (const auto& [name, text] : std::map<std::string, std::string>{
+           {"n.obj", obj}, {"n.ply", ply}, {"n.off", "OFF\n5 1 0\n" + points + "5 0 1 2 3 4\n"}, {"n.x3d", x3d}}) {
+    EXPECT_NEAR(areaOf(loadModel(fileWith(name, text))), 12, 1e-9) << name;
+  }
 }
 
 TEST(LoadModel, ObjKeepsLines) { EXPECT_EQ(loadModel(fileWith("l.obj", kObj)).segments.size(), 1u); }
