@@ -19,6 +19,28 @@ MatterForce matterAround(const SceneAt& scene, const Vec3& position) {
   return most;
 }
 
+namespace {
+
+// Past a soft surface the spring is K again, not K s: the proxy goes on to where K pulls as hard. The spring then holds
+// s times its energy. Where a surface is in the way, all stays.
+TickReport stiffened(const TickReport& report, const Vec3& finger, ProxyState& state, TickTo tick_to) {
+  ProxyState there = state;
+  const Vec3 place = finger - state.stiffness * (finger - state.position);
+  TickReport further = tick_to(place, there, report.looks);
+  further.work += report.work;
+  if (there.touching) {
+    TickReport stays = report;
+    stays.work = further.work;
+    stays.looks = further.looks;
+    stays.used_up_at = further.used_up_at;
+    return stays;
+  }
+  state = there;
+  return further;
+}
+
+}  // namespace
+
 TickReport tickInMatter(ProxyState& state, const ProxySettings& settings, const MatterForce& matter, const Vec3& finger,
                         TickTo tick_to) {
   const double spring_N_m = settings.spring_N_m * state.stiffness;
@@ -29,7 +51,15 @@ TickReport tickInMatter(ProxyState& state, const ProxySettings& settings, const 
   const double part = std::max(0.0, 1 - matter.resistance_N / pull_N) / harder;
   const Vec3 place = finger - (1 - part) * gap;
   const double before_J = springEnergy_J(settings, state, finger);
-  TickReport report = tickToGoal(state, settings, finger, {place, before_J}, tick_to);
+  const auto tick_held = [&](const Vec3& goal, ProxyState& at, int looks) {
+    const Vec3 from = at.position;
+    const double stiffness = at.stiffness;
+    const TickReport held = tick_to(goal, at, looks);
+    if (at.touching) return held;
+    at.stiffness = stiffness;  // what matter holds is pulled by the same spring
+    return stiffness < 1 && at.position != from ? stiffened(held, finger, at, tick_to) : held;
+  };
+  TickReport report = tickToGoal(state, settings, finger, {place, before_J}, tick_held);
   for (ProxyContact& contact : report.contacts) contact.multiplier_m *= harder;
   const Vec3 rest = state.position + state.rest_offset_m;
   setHeldPull(state, finger, rest - finger - (report.contacts.empty() ? 0 : harder) * (rest - place), report);

@@ -123,6 +123,50 @@ TEST(MatterDrag, ASurfaceWithinMatterIsPressedByTheSpringAlone) {
   EXPECT_GT(state.position.y(), -0.0009);
 }
 
+Instance softBlock(std::vector<MatterRow> rows, double strength_N, double stiffness) {
+  Instance soft = block(std::move(rows), strength_N);
+  auto surfaces = std::make_shared<Surfaces>(*soft.surfaces);
+  surfaces->materials[0].stiffness = stiffness;
+  soft.surfaces = std::move(surfaces);
+  return soft;
+}
+
+// Of K s as the surface has made it, whether the surface or the resistance holds the proxy.
+TEST(MatterDrag, ASoftSurfaceIsFeltTheSameFromTickToTick) {
+  const auto scene = makeSnapshot({softBlock({row(0, 0.5, 0)}, 0, 0.5)});
+  ProxyState state = startProxy(*scene, plainSettings(), {0.003, 0.002, 0.002});
+  forceAfter(state, *scene, {0.003, 0.002, 0.002}, {0, -0.01, 0}, 0.2605);  // 1.6 mm deep
+  for (const double depth_m : {1.6e-3, 0.65e-3, 0.3e-3}) {
+    const Vec3 parked(0.003, 0.001 - depth_m, 0.002);
+    for (int i = 0; i < 20; ++i)
+      EXPECT_NEAR(forceAfter(state, *scene, parked, Vec3::Zero(), kPeriod_s), 0.5 * kK * depth_m, 1e-9) << depth_m;
+  }
+}
+
+// Once the surface lets go the force falls to F + b v, with and without a tank of energy, and the spring is K again.
+TEST(MatterDrag, BeyondASoftSurfaceTheForceFalls) {
+  for (const LedgerMode ledger : {LedgerMode::kTank, LedgerMode::kStrict}) {
+    const auto scene = makeSnapshot({softBlock({row(0, 0.2, 5)}, 1, 0.5)});
+    ProxySettings settings = plainSettings();
+    settings.ledger = ledger;
+    ProxyState state = startProxy(*scene, settings, {0.003, 0.002, 0.002});
+    double before_N = 0, greatest_N = 0;
+    for (int i = 1; i <= 600; ++i) {
+      const Vec3 finger(0.003, 0.002 - i * 1e-5, 0.002);  // 0.01 m/s
+      const bool pierced = !state.pierced.empty();
+      const TickReport report = tick(state, *scene, settings, finger);
+      const double force_N = kK * (report.target - finger).norm();
+      EXPECT_TRUE(!pierced || force_N <= std::max(before_N, 0.25) + 1e-9) << i;
+      before_N = force_N;
+      greatest_N = std::max(greatest_N, force_N);
+    }
+    EXPECT_NEAR(greatest_N, 1.2, 0.01);  // the strength, and what the matter about the surface holds back
+    EXPECT_NEAR(before_N, 0.25, 1e-6);
+    EXPECT_EQ(state.stiffness, 1);
+    EXPECT_EQ(state.ledger.injected_J, 0);
+  }
+}
+
 // Whatever the finger does: the spring never gets energy from matter, and surfaces are never entered.
 TEST(MatterDrag, NeverAddsEnergyAndEntersNothing) {
   Instance floor;
