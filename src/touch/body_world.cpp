@@ -20,14 +20,15 @@ std::vector<Pose> startsOf(const std::vector<std::shared_ptr<const RigidBody>>& 
   return poses;
 }
 
-void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& impulse) {
+// False: there is no room.
+bool addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& impulse) {
   for (BodyImpulse& one : list) {
     if (one.key != impulse.key) continue;
     one.impulse_N_s += impulse.impulse_N_s;
     one.point = impulse.point;
-    return;
+    return true;
   }
-  list.push(impulse);
+  return list.push(impulse);
 }
 
 bool isFinite(const BodyState& body) {
@@ -103,10 +104,20 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
   pushes_ = before.pushes_;
   state_.steps = before.state_.steps;
   accounts_ = before.accounts_;
+  for (Account& account : accounts_) forgetOwed(account, before);
   view_ = before.view_;
   view_.bodies = bodies_.size();
   time_ns_ = before.time_ns_;
   begun_ = before.begun_;
+}
+
+// What is owed to a body that does not go on here is owed to nobody.
+void BodyWorld::forgetOwed(Account& account, const BodyWorld& before) const {
+  std::size_t kept = 0;
+  for (const BodyImpulse& owed : account.owed) {
+    if (world().has(owed.key) && goesOn(owed.key, before)) account.owed[kept++] = owed;
+  }
+  account.owed.resize(kept);
 }
 
 // Whether the bodies are those of before, and so is what holds them, but for what moves: that wakes what is near it.
@@ -255,16 +266,18 @@ void BodyWorld::push(double period_s) {
 // In whole, before the step: so a body swings about a field as by symplectic Euler.
 void BodyWorld::payDrawn() {
   for (Account& account : accounts_) {
-    for (const BodyImpulse& one : account.drawn) {
-      const std::size_t i = world().numberOf(one.key);
-      if (i == World::kNoBody) continue;
-      const double before_J = energyOf_J(i);
-      wake(world(), state_, one.key);
-      give(i, one.impulse_N_s, one.point);
-      state_.energy.by_hand_J += energyOf_J(i) - before_J;
-    }
+    for (const BodyImpulse& one : account.drawn) giveByHand(one);
     account.drawn.clear();
   }
+}
+
+void BodyWorld::giveByHand(const BodyImpulse& one) {
+  const std::size_t i = world().numberOf(one.key);
+  if (i == World::kNoBody) return;
+  const double before_J = energyOf_J(i);
+  wake(world(), state_, one.key);
+  give(i, one.impulse_N_s, one.point);
+  state_.energy.by_hand_J += energyOf_J(i) - before_J;
 }
 
 void BodyWorld::draw(std::size_t hand, const FieldForces& fields, double period_s) {
@@ -291,9 +304,12 @@ void BodyWorld::stepAmong(std::span<const HandAtBodies> hands, double period_s, 
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Account& account = *of_node[i];
     account.given = given[i];
-    account.paid = account.owed.size();
-    for (std::size_t k = 0; k < account.paid && k < account.given.size(); ++k)
-      account.owed[k].impulse_N_s -= account.given[k].impulse_N_s;
+    account.paid = 0;  // in the order of `owed`; what sleeps and is owed nothing got nothing
+    for (BodyImpulse& owed : account.owed) {
+      if (account.paid == account.given.size() || account.given[account.paid].key != owed.key) continue;
+      owed.impulse_N_s -= account.given[account.paid].impulse_N_s;
+      ++account.paid;
+    }
   }
 }
 
@@ -435,8 +451,20 @@ void BodyWorld::settle(std::size_t hand, const ObjectForces& forces, double peri
       change.impulse_N_s = with_wall;
       of_fixed.setZero();
     }
-    addTo(account.owed, change);
+    owe(account, change);
   }
+}
+
+// Of more bodies than there is room for, that which is owed the least gets it at once.
+void BodyWorld::owe(Account& account, const BodyImpulse& change) {
+  auto& owed = account.owed;
+  if (addTo(owed, change)) return;
+  const auto less = [](const BodyImpulse& a, const BodyImpulse& b) {
+    return a.impulse_N_s.squaredNorm() < b.impulse_N_s.squaredNorm();
+  };
+  BodyImpulse& least = *std::min_element(owed.begin(), owed.end(), less);
+  giveByHand(least);
+  least = change;
 }
 
 Vec3 BodyWorld::owed_N_s() const {

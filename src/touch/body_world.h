@@ -82,6 +82,16 @@ class BodyWorld {
  private:
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies,
             JointViews joint_views);
+  /// Between a hand and the bodies.
+  struct Account {
+    FixedVector<BodyImpulse, kContactsOfHand> owed;
+    DrawnImpulses drawn;
+    GivenImpulses given;   // in the last step
+    std::size_t paid = 0;  // the first of them: what was owed
+  };
+  void forgetOwed(Account& account, const BodyWorld& before) const;
+  void owe(Account& account, const BodyImpulse& change);
+  void giveByHand(const BodyImpulse& one);
   void continueJoints(const BodyWorld& before);
   bool goesOn(std::uint64_t key, const BodyWorld& before) const;
   bool standsAs(const BodyWorld& before) const;
@@ -108,13 +118,6 @@ class BodyWorld {
   BodyStepper stepper_;
   WorldState state_;
   JointViews joint_views_;
-  /// Between a hand and the bodies.
-  struct Account {
-    FixedVector<BodyImpulse, kContactsOfHand> owed;
-    DrawnImpulses drawn;
-    GivenImpulses given;   // in the last step
-    std::size_t paid = 0;  // the first of them: what was owed
-  };
   std::array<Account, kMaxHands> accounts_;  // by the hand's number
   BodyPushes pushes_;
   BodyStepReport report_;

@@ -14,9 +14,10 @@ struct Block {
   double mass_kg = 0.1;
   Vec3 half = Vec3::Constant(0.02);
   Vec3 at = Vec3(0, 0.02, 0);
+  std::uint64_t key = 0;
 };
 
-/// The blocks have the keys from 2 on.
+/// Blocks without a key have those from 2 on.
 inline std::shared_ptr<const Snapshot> sceneOfBlocks(const std::vector<Block>& blocks, double friction,
                                                      double gravity_m_s2, std::uint64_t number = 1) {
   const BodySurface surface{friction, friction, 0};
@@ -27,7 +28,7 @@ inline std::shared_ptr<const Snapshot> sceneOfBlocks(const std::vector<Block>& b
   floor.surface = surface;
   instances.back().body = makeRigidBody("floor", floor, {}, {}, room);
   for (const Block& block : blocks) {
-    instances.push_back(instanceOf(boxModel(block.half), instances.size() + 1));
+    instances.push_back(instanceOf(boxModel(block.half), block.key != 0 ? block.key : instances.size() + 1));
     Instance& instance = instances.back();
     BodySpec spec;
     spec.mass_kg = block.mass_kg;

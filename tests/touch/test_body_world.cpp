@@ -108,6 +108,43 @@ TEST(BodyWorld, ActionIsReactionToRounding) {
   EXPECT_GT(bench.momentum().norm(), 1e-4) << "nothing was touched";
 }
 
+// What its last touch has left to be paid goes with a body.
+TEST(BodyWorld, NobodyPaysWhatWasOwedToABodyThatHasGone) {
+  const ServoSettings settings = test::plainServo(1000);
+  Bench bench({{0.1, Vec3::Constant(0.02), Vec3(0, 0.05, 0)}}, 0, 0);
+  Vec3 finger(-0.05, 0.05, 0);
+  sweep(bench, settings, finger, Vec3(0.1, 0, 0), 0.4);
+  sweep(bench, settings, finger, Vec3(-0.1, 0, 0), 0.4);
+  bench.show({{0.1, Vec3::Constant(0.02), Vec3(0, 0.05, 0), 9}}, 0, 0);
+  sweep(bench, settings, finger, Vec3(0.1, 0, 0), 0.4);
+  EXPECT_GT(bench.body().velocity.x(), 0.05);
+  sweep(bench, settings, finger, Vec3(-0.1, 0, 0), 0.1);
+  const Vec3 velocity = bench.body().velocity;
+  sweep(bench, settings, finger, Vec3::Zero(), 0.5);
+  EXPECT_LT((bench.body().velocity - velocity).norm(), 1e-12);
+}
+
+// A hand remembers what it owes to kContactsOfHand bodies; light ones are owed for long.
+TEST(BodyWorld, ActionIsReactionAmongMoreBodiesThanAHandRemembers) {
+  std::vector<Bench::Block> row;
+  for (std::size_t i = 0; i < 2 * kContactsOfHand; ++i)
+    row.push_back({1e-5, Vec3(0.01, 0.002, 0.002), Vec3(0, 0.05, 0.02 * static_cast<double>(i))});
+  Bench bench(row, 0, 0);
+  const ServoSettings settings = test::plainServo(1000);
+  Vec3 finger(-0.03, 0.05, 0);
+  for (const Bench::Block& block : row) {
+    finger.z() = block.at.z();
+    for (const double velocity : {0.5, -0.5}) {
+      for (int i = 0; i < 50; ++i) {
+        finger.x() += 1e-3 * velocity;
+        bench.step(finger, settings);
+        ASSERT_LT(bench.imbalance().norm(), 1e-12) << block.at.z() << ' ' << i;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < row.size(); ++i) EXPECT_GT(bench.body(i).velocity.x(), 0.1) << i;
+}
+
 // m dv/dt = b (u - v): the drag falls from b u to 0 while body `i` comes to the speed of the finger, within m / b or a
 // step. An explicit damper drives what is lighter than b T / 2 to and fro, ever faster.
 void expectDraggedToTheSpeedOfTheFinger(Bench& bench, std::size_t i, double mass_kg, double viscosity_Ns_m) {
