@@ -340,8 +340,10 @@ HL_API void hlGravity3d(HLdouble x, HLdouble y, HLdouble z);
 /** Gives bodies of `object` an impulse, N s (at most 1e6 along each axis), at the point px py pz of the world, m,
  * evenly within `seconds` (0 .. 10; 0: at once), at a point fixed to the body. At once, not with the frame; of bodies
  * that are shown: after hlFinish, for one. With a current name (hlLoadName) it is those of the object that were called
- * with it; without, all. The server refuses it where there is none (HL_REFUSED). HL_INVALID_VALUE: the object is not
- * defined, a number is out of its range. */
+ * with it; without, all. The server refuses it where there is none, and where more than 1024 wait: the loops take 4 in
+ * each step of the servo (HL_REFUSED). Calls that come faster than 1000 a second go together, with a later call;
+ * HL_BUSY: 4096 wait, and this one is not sent. HL_INVALID_VALUE: the object is not defined, a number is out of its
+ * range. */
 HL_API void hlBodyImpulsed(HLuint object, HLdouble ix, HLdouble iy, HLdouble iz, HLdouble px, HLdouble py, HLdouble pz,
                            HLdouble seconds);
 /** Sets their velocity, m/s of the centre of mass (at most 100 along each axis), and spin, rad/s (at most 1000 about

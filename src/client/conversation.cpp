@@ -65,6 +65,10 @@ Conversation Conversation::open(const ServerUrl& url) {
 
 double Conversation::springStiffness_N_m() const { return stiffness_N_m_.value_or(view_.device().stiffness_n_m()); }
 
+void Conversation::send(proto::ClientMessage&& message) {
+  if (!ended_) small_.send(*link_, std::move(message));
+}
+
 Outbox::Outcome Conversation::sendFrame() {
   if (ended_) return Outbox::Outcome::kNothingToSend;
   return outbox_.trySend(*link_, view_.limits(), interval_s_);
@@ -74,19 +78,19 @@ void Conversation::send(proto::DeviceSettings settings) {
   if (settings.has_stiffness_n_m()) stiffness_N_m_ = settings.stiffness_n_m();
   proto::ClientMessage message;
   *message.mutable_device() = std::move(settings);
-  if (!ended_) link_->send(std::move(message));
+  send(std::move(message));
 }
 
 void Conversation::send(const proto::StateRate& rate) {
   proto::ClientMessage message;
   *message.mutable_state_rate() = rate;
-  if (!ended_) link_->send(std::move(message));
+  send(std::move(message));
 }
 
 void Conversation::send(proto::BodyCommand command) {
   proto::ClientMessage message;
   *message.mutable_body_command() = std::move(command);
-  if (!ended_) link_->send(std::move(message));
+  send(std::move(message));
 }
 
 // From the first body on the states hold bodies.
@@ -103,21 +107,21 @@ void Conversation::askForBodies() {
   proto::ClientMessage message;
   message.mutable_body_request()->set_wanted(wants_bodies_);
   message.mutable_body_request()->set_events(hears_bodies_);
-  if (!ended_) link_->send(std::move(message));
+  send(std::move(message));
 }
 
 void Conversation::keepSamples(std::size_t most) {
   samples_.keep(most);
   proto::ClientMessage message;
   message.mutable_sample_request()->set_wanted(most > 0);
-  if (!ended_) link_->send(std::move(message));
+  send(std::move(message));
 }
 
 void Conversation::keepContactReports(bool wanted) {
   contact_reports_.keep(wanted);
   proto::ClientMessage message;
   message.mutable_contact_report_request()->set_wanted(wanted);
-  if (!ended_) link_->send(std::move(message));
+  send(std::move(message));
 }
 
 void Conversation::takeRefusal(const proto::Refusal& refusal, ErrorState& errors) {
@@ -153,6 +157,7 @@ void Conversation::take(proto::ServerReply& reply, ErrorState& errors, EventQueu
 
 void Conversation::takeReplies(ErrorState& errors, EventQueue& events) {
   if (ended_) return;
+  small_.sendWaiting(*link_);
   // Asked first: what arrived before the end is still taken.
   const std::string why = link_->ended();
   proto::ServerReply reply;
@@ -168,10 +173,11 @@ bool Conversation::finish(std::int64_t until_ns, ErrorState& errors, EventQueue&
     sendFrame();
     takeReplies(errors, events);
     if (ended_) return false;
-    if (!outbox_.hasWaiting() && outbox_.allAnswered()) return refusals_ == refusals_before;
+    if (!outbox_.hasWaiting() && outbox_.allAnswered() && small_.empty()) return refusals_ == refusals_before;
     const std::int64_t left_ns = until_ns - monotonicNow_ns();
     if (left_ns <= 0) return false;
     std::int64_t wait_ns = kLongestWait_ns;
+    if (!small_.empty()) wait_ns = kLookAgain_ns;
     if (outbox_.hasWaiting()) wait_ns = std::max(outbox_.untilAllowed_ns(view_.limits()), kLookAgain_ns);
     link_->wait(std::chrono::nanoseconds(std::min(wait_ns, left_ns)));
   }

@@ -16,6 +16,7 @@
 #include "client/sample_list.h"
 #include "client/server_url.h"
 #include "client/server_view.h"
+#include "client/small_messages.h"
 #include "wire/link.h"
 
 namespace hl::client {
@@ -59,6 +60,7 @@ class Conversation {
 
  private:
   Conversation(std::unique_ptr<Link> link, ServerView view) : link_(std::move(link)), view_(std::move(view)) {}
+  void send(proto::ClientMessage&& message);
   void askForBodies();
   void take(proto::ServerReply& reply, ErrorState& errors, EventQueue& events);
   void takeRefusal(const proto::Refusal& refusal, ErrorState& errors);
@@ -66,6 +68,7 @@ class Conversation {
   std::unique_ptr<Link> link_;
   ServerView view_;
   Outbox outbox_;
+  SmallMessages small_;
   SampleList samples_;
   ContactReports contact_reports_;
   std::optional<double> interval_s_;

@@ -1,6 +1,7 @@
 #include "client/error_state.h"
 
 #include <new>
+#include <utility>
 
 #include "client/fault.h"
 
@@ -10,6 +11,7 @@ void ErrorState::note(HLenum code, const char* function, const std::string& text
   try {
     const std::string line = function == nullptr ? text : std::string(function) + ": " + text;
     if (kept_ == HL_NO_ERROR) text_ = line;
+    if (kept_ != HL_NO_ERROR && code == HL_CONNECTION_LOST) lost_ = line;
     if (callback_ != nullptr) callback_(code, line.c_str(), user_);
   } catch (...) {
     // No memory for the text, or the callback has thrown: the code is still kept.
@@ -18,6 +20,11 @@ void ErrorState::note(HLenum code, const char* function, const std::string& text
 }
 
 HLenum ErrorState::take() noexcept {
+  if (kept_ == HL_NO_ERROR && lost_) {
+    text_ = std::move(*lost_);
+    lost_.reset();
+    return HL_CONNECTION_LOST;
+  }
   const HLenum code = kept_;
   kept_ = HL_NO_ERROR;
   return code;

@@ -1,8 +1,10 @@
-// ErrorState: GL's sticky error. The first error is kept until it is taken; a callback hears of every one.
+// ErrorState: GL's sticky error. The first error is kept until it is taken; a callback hears of every one. The end of
+// the conversation is reported once, so it waits behind an error that is kept.
 #pragma once
 
 #include <hl/hl_types.h>
 
+#include <optional>
 #include <string>
 
 namespace hl::client {
@@ -20,6 +22,7 @@ class ErrorState {
  private:
   HLenum kept_ = HL_NO_ERROR;
   std::string text_;
+  std::optional<std::string> lost_;  // HL_CONNECTION_LOST, that came while another one was kept
   HLerrorfunc callback_ = nullptr;
   void* user_ = nullptr;
 };

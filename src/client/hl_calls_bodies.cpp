@@ -71,7 +71,9 @@ void setNumber(hl::proto::Body& body, HLenum parameter, double value) {
 
 void setWhole(hl::proto::Body& body, HLenum parameter, HLint value) {
   const auto named = static_cast<HLenum>(value);
-  if (parameter == HL_BODY_FIXED) return body.set_fixed(value != HL_FALSE);
+  if (parameter == HL_BODY_FIXED && value != HL_FALSE && value != HL_TRUE)
+    throw Fault(HL_INVALID_VALUE, "HL_BODY_FIXED must be HL_TRUE or HL_FALSE");
+  if (parameter == HL_BODY_FIXED) return body.set_fixed(value == HL_TRUE);
   if (parameter != HL_BODY_SHAPE) throw Fault(HL_INVALID_ENUM, "the parameter must be HL_BODY_SHAPE or HL_BODY_FIXED");
   if (named < HL_BODY_HULL || named > HL_BODY_PARTS)
     throw Fault(HL_INVALID_ENUM, "the shape must be HL_BODY_HULL .. HL_BODY_PARTS");

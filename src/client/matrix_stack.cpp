@@ -31,7 +31,7 @@ Matrix4 linear(const Mat3& part) {
 void MatrixStack::setTop(const Matrix4& matrix) {
   if (!matrix.allFinite()) throw Fault(HL_INVALID_VALUE, "the matrix would not be finite");
   if (kind_ == Kind::kModelview && !isInvertible(matrix))
-    throw Fault(HL_INVALID_VALUE, "the matrix would not be invertible");
+    throw Fault(HL_INVALID_VALUE, "the matrix could not be inverted in double precision");
   stack_.back() = matrix;
   is_identity_ = matrix == Matrix4::Identity();
 }

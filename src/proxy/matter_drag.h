@@ -10,8 +10,9 @@
 // x|^2: a spring of K s + b / T toward g. So a contact that keeps the proxy from g is pressed by (K s + b / T) lambda,
 // and the matter has what is left of the pull: nothing, if the proxy does not move.
 //
-// s is that of the surface which the proxy touched last, for as long as the matter holds it there. Where the proxy moves
-// on without a surface, the spring is K again: the proxy goes on to where that pulls as hard, finger + s (x - finger).
+// s is that of the surface which the proxy touched last, for as long as the matter holds it there. Where the proxy
+// moves on without a surface, the spring is K again: the proxy goes on to where that pulls as hard, finger + s (x -
+// finger).
 #pragma once
 
 #include "geometry/matter_force.h"

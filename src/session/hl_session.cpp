@@ -101,6 +101,8 @@ void HlSession::receive(proto::ClientMessage message) {
       return wantBodies(message.body_request());
     case proto::ClientMessage::kBodyCommand:
       return act(message.body_command());
+    case proto::ClientMessage::kBodyCommands:
+      return act(message.body_commands());
     case proto::ClientMessage::kIso:
       return setIso(message.iso());
     case proto::ClientMessage::BODY_NOT_SET:
@@ -256,6 +258,12 @@ void HlSession::act(const proto::BodyCommand& message) {
   } catch (const Error& error) {
     refuse(error.what());
   }
+}
+
+void HlSession::act(const proto::BodyCommands& message) {
+  if (message.commands_size() > kMaxCommandsPerMessage)
+    return refuse("body_commands: there are more than " + std::to_string(kMaxCommandsPerMessage) + " commands");
+  for (const proto::BodyCommand& command : message.commands()) act(command);
 }
 
 void HlSession::setIso(const proto::IsoChange& change) {

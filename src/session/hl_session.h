@@ -65,6 +65,7 @@ class HlSession final : public ClientSession {
   void want(bool wanted, std::optional<std::uint64_t>& next) const;
   void wantBodies(const proto::BodyRequest& request);
   void act(const proto::BodyCommand& command);
+  void act(const proto::BodyCommands& message);
   void setIso(const proto::IsoChange& change);
   void refuse(const std::string& why, std::uint64_t frame = 0);
   FrameCallbacks callbacks();

@@ -50,7 +50,7 @@ class BodyCommandQueue {
 
  private:
   std::mutex mutex_;  // between those who push; the loops never see it
-  SpscRing<BodyCommand, 256> ring_;
+  SpscRing<BodyCommand, 1024> ring_;
 };
 
 }  // namespace hl
