@@ -111,10 +111,18 @@ void printReading(const Reading& reading) {
              cad.tolerance_m);
 }
 
+void printBounds(const Box& bounds) {
+  const Vec3 &from = bounds.min, &to = bounds.max, size = bounds.size();
+  if (bounds.empty()) {
+    fmt::print("size:       none: nothing of it can be touched\n");
+    return;
+  }
+  fmt::print("size:       {:.6g} x {:.6g} x {:.6g} m\n", size.x(), size.y(), size.z());
+  fmt::print("from:       {:.6g} {:.6g} {:.6g} m\n", from.x(), from.y(), from.z());
+  fmt::print("to:         {:.6g} {:.6g} {:.6g} m\n", to.x(), to.y(), to.z());
+}
+
 void printTotals(const Totals& all, const Snapshot& snapshot) {
-  const Box bounds = tightBounds(snapshot);
-  const Vec3 size = bounds.size();
-  const Vec3 &from = bounds.min, &to = bounds.max;
   fmt::print("primitives: {} ({} triangles, {} segments, {} points given; {} vertices)\n", snapshot.primitives,
              all.triangles, all.segments, all.points, all.vertices);
   if (all.reading.joined_vertices > 0)
@@ -124,9 +132,7 @@ void printTotals(const Totals& all, const Snapshot& snapshot) {
   fmt::print("normals:    {}\n", all.normals ? "per vertex" : "none");
   fmt::print("texcoords:  {}\n", all.texcoords ? "per vertex" : "none");
   printAppearance(all);
-  fmt::print("size:       {:.6g} x {:.6g} x {:.6g} m\n", size.x(), size.y(), size.z());
-  fmt::print("from:       {:.6g} {:.6g} {:.6g} m\n", from.x(), from.y(), from.z());
-  fmt::print("to:         {:.6g} {:.6g} {:.6g} m\n", to.x(), to.y(), to.z());
+  printBounds(tightBounds(snapshot));
   fmt::print("hierarchy:  {} nodes, {} leaves, depth {}\n", all.nodes, all.leaves, all.depth);
   fmt::print("memory:     {:.1f} MB; vertices, indices and hierarchy: {} bytes a primitive\n",
              1e-6 * static_cast<double>(memoryOf(snapshot)), all.geometry_bytes / snapshot.primitives);

@@ -56,10 +56,16 @@ void addReadingOptions(CLI::App& command, SceneOptions& options) {
       ->allow_extra_args(false)  // a file may follow
       ->check(finite())
       ->option_text("FLOAT[,FLOAT]...");
-  command.add_flag_function(
-      "--below", [&options](std::int64_t said) { options.solid = said > 0 ? SolidSide::kBelow : SolidSide::kAbove; },
-      "the matter of a volume is where its values are below --iso, as of signed distances (--below=false: above, as in "
-      "CT; default: what the file says, or above)");
+  command
+      .add_flag_function(
+          "--below",
+          [&options](std::int64_t said) { options.solid = said > 0 ? SolidSide::kBelow : SolidSide::kAbove; },
+          "the matter of a volume is where its values are below --iso, as of signed distances (--below=false: above, "
+          "as "
+          "in CT; default: what the file says, or above)")
+      ->check(passing([](const std::string& text) {
+        if (text != "true" && text != "false") throw Error("'" + text + "' is neither true nor false");
+      }));
   command
       .add_option("--vertical-scale", options.vertical_scale,
                   "factor on the heights of a height field, before --scale or --fit (default 1)")

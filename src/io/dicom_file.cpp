@@ -11,6 +11,7 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -66,8 +67,7 @@ std::string dicomText(const DataSet& set, const Tag& tag) {
 }
 
 // "1\-2.5\3"; what is no number ends it.
-std::vector<double> dicomNumbers(const DataSet& set, const Tag& tag) {
-  const std::string text = dicomText(set, tag);
+std::vector<double> numbersIn(const std::string& text) {
   std::vector<double> numbers;
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t end = std::min(rest.find('\\'), rest.size());
@@ -80,6 +80,15 @@ std::vector<double> dicomNumbers(const DataSet& set, const Tag& tag) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return numbers;
+}
+
+std::vector<double> dicomNumbers(const DataSet& set, const Tag& tag) { return numbersIn(dicomText(set, tag)); }
+
+// Not a number: what is there cannot be read.
+double numberIn(const std::string& text, double otherwise) {
+  const std::vector<double> numbers = numbersIn(text);
+  if (!numbers.empty()) return numbers[0];
+  return text.empty() ? otherwise : std::numeric_limits<double>::quiet_NaN();
 }
 
 double dicomNumber(const DataSet& set, const Tag& tag, double otherwise) {
@@ -102,14 +111,18 @@ class FrameAttributes {
 
   bool grouped() const { return own_ != nullptr; }
   std::vector<double> numbers(std::size_t frame, const Tag& group, const Tag& attribute) const {
+    return numbersIn(text(frame, group, attribute));
+  }
+
+  std::string text(std::size_t frame, const Tag& group, const Tag& attribute) const {
     for (const auto& [items, item] : {std::pair(&own_, frame + 1), std::pair(&shared_, std::size_t{1})}) {
       if (*items == nullptr || (*items)->GetNumberOfItems() < item) continue;
       const Items groups = itemsOf((*items)->GetItem(item).GetNestedDataSet(), group);
       if (groups == nullptr || groups->GetNumberOfItems() < 1) continue;
-      std::vector<double> found = dicomNumbers(groups->GetItem(1).GetNestedDataSet(), attribute);
+      std::string found = dicomText(groups->GetItem(1).GetNestedDataSet(), attribute);
       if (!found.empty()) return found;
     }
-    return dicomNumbers(file_, attribute);
+    return dicomText(file_, attribute);
   }
 
  private:
@@ -133,10 +146,10 @@ std::vector<double> stepsOfSamples(const DataSet& file, const FrameAttributes& a
 ValueScale scaleOfValues(const DataSet& file, const FrameAttributes& attributes, std::size_t frame) {
   constexpr std::pair<std::uint16_t, std::uint16_t> kGroup{0x0028, 0x9145};
   const Tag group(kGroup.first, kGroup.second);
-  const auto slope = attributes.numbers(frame, group, {0x0028, 0x1053});
-  const auto offset = attributes.numbers(frame, group, {0x0028, 0x1052});
-  const double scale = slope.empty() ? dicomNumber(file, {0x3004, 0x000e}, 1) : slope[0];
-  return {scale == 0 ? 1 : scale, offset.empty() ? 0 : offset[0]};
+  const std::string slope = attributes.text(frame, group, {0x0028, 0x1053});
+  const double scale = numberIn(slope, dicomNumber(file, {0x3004, 0x000e}, 1));
+  const double offset = numberIn(attributes.text(frame, group, {0x0028, 0x1052}), 0);
+  return {scale == 0 ? std::numeric_limits<double>::quiet_NaN() : scale, offset};
 }
 
 std::vector<DicomSlice> slicesOf(const DicomFile& file, const DataSet& set) {

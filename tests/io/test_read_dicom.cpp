@@ -326,6 +326,10 @@ TEST(ReadDicom, WhatMakesNoVolumeIsRefused) {
               set.numbers({0x28, 0x30}, {1, 2});
             }),
             "has slices of unequal scale: export one stack of them");
+  for (const char* slope : {"banana", "1e999", "0", "nan"}) {
+    const auto change = [&](DicomSet& set) { set.text({0x28, 0x1053}, "DS", slope); };
+    EXPECT_EQ(refused(change), "says no scale of its values that could be") << slope;
+  }
   EXPECT_EQ(refused([](DicomSet& set) {
               set.number({0x28, 0x10}, 2);
             }),
