@@ -4,6 +4,7 @@
 #include "proxy/adhesion.h"
 #include "proxy/begin.h"
 #include "proxy/carry.h"
+#include "proxy/changed_stiffness.h"
 #include "proxy/follow_deformation.h"
 #include "proxy/leave_matter.h"
 #include "proxy/matter_drag.h"
@@ -31,10 +32,12 @@ std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report, const He
   return key;
 }
 
-// Moves the proxy with the moving objects, and the rest of its spring with their frames. Returns the energy change, J.
-// This work is done by the objects, not by the rules of the surfaces, so no tank pays for it.
+// Moves the proxy with the moving objects, the rest of its spring with their frames, and changes its stiffness with
+// that of the surfaces. Returns the energy change, J. This work is done by the objects, not by the rules of the
+// surfaces, so no tank pays for it.
 double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   const double before_J = springEnergy_J(settings, state, finger);
+  followStiffness(state, scene, settings);
   carry(state, scene, settings);
   leaveMatter(state, scene, settings, finger);
   followDeformation(state, scene, settings);
@@ -100,6 +103,7 @@ TickReport tickUnpierced(ProxyState& state, const SceneAt& scene, const ProxySet
   const Vec3 aim = finger + report.held_pull_m;  // what the contacts hold the proxy from
   rememberDeformation(state, scene, settings, report, aim);
   rememberYielding(state, scene, settings, report, aim);
+  rememberStiffness(state, scene, settings, report);
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;
   state.carrier = carrierOf(scene, report, state.snap);

@@ -1,8 +1,10 @@
 // The proxy's settings, and the state that a tick leaves for the next one.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "base/fixed_vector.h"
 #include "base/ledger.h"
@@ -61,6 +63,16 @@ struct YieldingContact {
 };
 using YieldingContacts = FixedVector<YieldingContact, kMaxActive>;
 
+/// A surface that held the proxy in the last tick (changed_stiffness.h).
+struct HeldSurface {
+  std::uint64_t key = 0;                   ///< of the instance
+  ElementId element = 0;                   ///< of its shape
+  std::array<double, 3> weights{1, 0, 0};  ///< of the contact point
+  double multiplier_m = 0;                 ///< its weight in the mean stiffness
+  double stiffness = 1;                    ///< s
+};
+using HeldSurfaces = FixedVector<HeldSurface, kMaxActive>;
+
 /// Keys of objects that have let the proxy through and still overlap it (piercing.h).
 using PiercedObjects = FixedVector<std::uint64_t, SceneAt::kMaxLeftOut>;
 
@@ -88,12 +100,14 @@ struct ProxyState {
   HeldSnap snap{};
   PiercedObjects pierced{};
   MatterObjects within{};
-  AdheringContacts adhering{};        ///< adhesive contacts of the last tick (adhesion.h)
-  YieldingContacts yielding{};        ///< contacts of the last tick; empty if none of them yields
-  double yielding_stiffness = 1;      ///< s of these contacts
-  Vec3 rest_offset_m = Vec3::Zero();  ///< where the spring is fixed - proxy; 0 if nothing yields (yielding.h)
-  Vec3 sharing_m = Vec3::Zero();      ///< the part of it by which contacts share the pull as they yield
-  Vec3 pressed_m = Vec3::Zero();      ///< s times the rest of it, C F_k: times K what meshes press by F_k
+  AdheringContacts adhering{};             ///< adhesive contacts of the last tick (adhesion.h)
+  HeldSurfaces held{};                     ///< of the contacts of the last tick
+  std::optional<double> stiffness_said{};  ///< what the user set for all surfaces in that tick
+  YieldingContacts yielding{};             ///< contacts of the last tick; empty if none of them yields
+  double yielding_stiffness = 1;           ///< s of these contacts
+  Vec3 rest_offset_m = Vec3::Zero();       ///< where the spring is fixed - proxy; 0 if nothing yields (yielding.h)
+  Vec3 sharing_m = Vec3::Zero();           ///< the part of it by which contacts share the pull as they yield
+  Vec3 pressed_m = Vec3::Zero();           ///< s times the rest of it, C F_k: times K what meshes press by F_k
   ComplianceEstimate estimate{};
   Ledger ledger{};
   int out_of_work = 0;  ///< consecutive ticks that ran out of work; more of them raise the limit (mostWork in tick.cpp)

@@ -1,6 +1,7 @@
 // Surface: the surface properties of a primitive, from the scene and the user: material, textures, vertex normals.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -52,6 +53,8 @@ class Surface {
 
   /// The quantity as a constant or a texture. kHeight without a texture is 0.
   SurfaceValue read(Quantity quantity) const;
+  /// At barycentric weights, 0..1.
+  double stiffness(const std::array<double, 3>& weights) const;
   /// The value of a quantity that no texture modulates.
   double plain(Quantity quantity) const { return overridden(quantity).value_or(number(quantity)); }
 
@@ -87,6 +90,11 @@ inline double constantOf(const SceneAt& scene, const MaterialOverride& set, Prim
   const Instance& instance = scene.instance(id);
   if (instance.plain) return 0;
   return instance.surfaces->materials[scene.shape(id).materialOf(id.element)].*kMaterialNumbers[i];
+}
+
+inline double Surface::stiffness(const std::array<double, 3>& weights) const {
+  const SurfaceValue value = read(Quantity::kStiffness);
+  return std::clamp(value.texture ? value.at(texcoord(weights)) : value.low, 0.0, 1.0);
 }
 
 inline SurfaceValue Surface::read(Quantity quantity) const {

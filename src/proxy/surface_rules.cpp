@@ -259,10 +259,7 @@ void SurfaceRules::moved(const Proposal& proposal, const Vec3& step) {
 
 double SurfaceRules::stiffnessAt(const SurfacePoint& place) const {
   if (plain(place.primitive)) return 1;
-  const Surface surface = surfaceOf(place.primitive);
-  const SurfaceValue stiffness = surface.read(Quantity::kStiffness);
-  const Vec2 texcoord = stiffness.texture ? surface.texcoord(place.weights) : Vec2(Vec2::Zero());
-  return std::clamp(stiffness.at(texcoord), 0.0, 1.0);
+  return surfaceOf(place.primitive).stiffness(place.weights);
 }
 
 ProxyContact SurfaceRules::describe(const ContactSet& set, const ActiveContact& active) const {

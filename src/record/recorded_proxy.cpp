@@ -35,6 +35,7 @@ struct YieldingValues {
 constexpr double kMaxMemory = 1e12;  // joules, seconds, metres: far beyond any session
 constexpr const char* kMemory = "the memory of the proxy";
 constexpr const char* kYieldingContact = "a contact that yields";
+constexpr const char* kHeldSurface = "a surface that holds the proxy";
 constexpr const char* kYielding = "how the proxy's spring yields";
 constexpr const char* kEstimate = "the estimate of the compliance";
 
@@ -120,6 +121,20 @@ void readYielding(const proto::RecordedProxy& in, ProxyState& state) {
   }
 }
 
+HeldSurfaces heldOf(const proto::RecordedProxy& in) {
+  HeldSurfaces held;
+  for (const proto::Values& one : in.held()) {
+    HeldSurface surface;
+    readValues(one, kHeldSurface, surface);
+    for (const double weight : surface.weights)
+      checkRanges(kHeldSurface, {{"weights", weight, -kMaxMemory, kMaxMemory}});
+    checkRanges(kHeldSurface, {{"multiplier_m", surface.multiplier_m, -kMaxMemory, kMaxMemory},
+                               {"stiffness", surface.stiffness, 0, 1}});
+    if (!held.push(surface)) throw Error("the surfaces that hold the proxy make no sense: there are too many");
+  }
+  return held;
+}
+
 AdheringContacts adheringOf(const proto::RecordedProxy& in) {
   constexpr double kUnit = 1e-6;  // of a normal, which is computed
   constexpr int kNumbersEach = 4;
@@ -160,6 +175,8 @@ void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
     add(*out.mutable_adhering(), contact.normal);
     out.add_adhering(contact.adhesion_N);
   }
+  for (const HeldSurface& surface : state.held) toProto(valuesOf(surface), *out.add_held());
+  if (state.stiffness_said) out.set_stiffness_said(*state.stiffness_said);
   for (const std::uint64_t key : state.pierced) out.add_pierced(key);
   for (const std::uint64_t key : state.within) out.add_within(key);
   toProto(valuesOf(YieldingValues{state.rest_offset_m, state.sharing_m, state.pressed_m, state.yielding_stiffness,
@@ -184,6 +201,8 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.snapshot = values.snapshot;
   state.carrier = values.carrier;
   state.snap = values.snap;
+  state.held = heldOf(in);
+  if (in.has_stiffness_said()) state.stiffness_said = in.stiffness_said();
   state.adhering = adheringOf(in);
   state.pierced = keysOf<PiercedObjects>(in.pierced(), "the objects that let the proxy through");
   state.within = keysOf<MatterObjects>(in.within(), "the objects in whose matter the proxy is");
