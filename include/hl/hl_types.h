@@ -235,7 +235,8 @@ enum {
   HL_DEVICE_WRIST = 0x48164,         /**< 1; HL_TRUE: the device reports how its stylus is turned */
   HL_GRIPPER_MAX = 0x48165,          /**< 1; rad: how far its gripper opens; 0: it has none */
   HL_SPRING_STIFFNESS_MAX = 0x48098, /**< 1; N/m; 0: not known */
-  HL_SPRING_STIFFNESS = 0x48099,     /**< 1; N/m: K of the servo, as given at the beginning or set here since */
+  HL_SPRING_STIFFNESS = 0x48099,     /**< 1; N/m: K of the servo, as given at the beginning or set here since,
+                                          at most the former; what others set is not seen */
   HL_SPRING_DAMPING = 0x4809A        /**< 1; N s/m: B of the servo */
 };
 

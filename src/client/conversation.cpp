@@ -63,7 +63,10 @@ Conversation Conversation::open(const ServerUrl& url) {
   return {std::move(link), std::move(view)};
 }
 
-double Conversation::springStiffness_N_m() const { return stiffness_N_m_.value_or(view_.device().stiffness_n_m()); }
+double Conversation::springStiffness_N_m() const {
+  const double said = stiffness_N_m_.value_or(view_.device().stiffness_n_m()), most = view_.device().stiffness_max_n_m();
+  return most > 0 ? std::min(said, most) : said;  // 0: not known
+}
 
 void Conversation::send(proto::ClientMessage&& message) {
   if (!ended_) small_.send(*link_, std::move(message));

@@ -34,7 +34,9 @@ const std::map<std::string_view, const char*> kSameAs{{"Anchor", "Group"},
                                                       {"HAnimJoint", "Transform"},
                                                       {"HAnimSite", "Transform"},
                                                       {"HAnimSegment", "Group"},
-                                                      {"CoordinateDouble", "Coordinate"}};
+                                                      {"CoordinateDouble", "Coordinate"},
+                                                      {"PhysicalMaterial", "Material"},
+                                                      {"UnlitMaterial", "Material"}};
 // Fields of these, whose nodes are shown by another field too, or never.
 const std::map<std::string_view, std::set<std::string_view>> kNotShown{
     {"Collision", {"proxy"}}, {"HAnimHumanoid", {"joints", "segments", "sites", "viewpoints"}}};
@@ -48,6 +50,10 @@ const std::set<std::string_view> kShapes{
     "Sphere",          "TriangleFanSet", "TriangleSet",        "TriangleSet2D",
     "MetadataBoolean", "MetadataDouble", "MetadataFloat",      "MetadataInteger",
     "MetadataSet",     "MetadataString"};
+
+// What an Appearance may have. Nothing else of it is shown.
+const std::set<std::string_view> kLooks{"Material", "PhysicalMaterial", "UnlitMaterial", "ImageTexture",
+                                        "TextureTransform"};
 
 using Indices = std::vector<long>;
 constexpr long kEnd = -1;  // of a face or line
@@ -168,6 +174,7 @@ class Simplifier {
     const auto hidden = kNotShown.find(type);
     if (hidden != kNotShown.end() && hidden->second.contains(x3dField(child, "containerField").value_or("")))
       return false;
+    if (type == "Appearance" && !kLooks.contains(child.first)) return false;
     const bool in_shape = type == "Shape" && !kShapes.contains(child.first) && !kSets.contains(child.first);
     if (!in_shape && child.first != "Inline") return true;
     if (left_out_.insert(child.first).second) warnings_.push_back(child.first + " is left out");
@@ -179,6 +186,7 @@ class Simplifier {
     plainNumbers(node.second);
     makeUnitAxis(node, "rotation");
     makeUnitAxis(node, "scaleOrientation");
+    if (const auto colour = x3dField(node, "baseColor")) setX3dField(node.second, "diffuseColor", *colour);
     const auto set = kSets.find(node.first);
     if (set != kSets.end()) rewrite(node, set->second);
     const auto same = kSameAs.find(node.first);
@@ -205,6 +213,7 @@ class Simplifier {
     }
   }
 
+  // Colours of whole lines and strips have no place where these are cut.
   void rewrite(X3dNode& node, const Rewriting& how) const {
     if (x3dField(node, "USE")) return;
     const auto list = [&](const char* field) { return listOf<long>(x3dField(node, field).value_or("")); };
@@ -216,8 +225,13 @@ class Simplifier {
       const Indices one_row{static_cast<long>(corners)};
       indices = cutCounted(how.counts != nullptr ? list(how.counts) : one_row, corners, how.cut);
     }
-    if (x3dField(node, "colorIndex"))
+    if (x3dField(node, "colorPerVertex") == "false" && how.cut != cutQuads) {
+      node.second.erase("Color");
+      node.second.erase("ColorRGBA");
+      setX3dField(node.second, "colorIndex", "");
+    } else if (x3dField(node, "colorIndex")) {
       setX3dField(node.second, "colorIndex", textOf(cutIndexed(list("colorIndex"), how.cut)));
+    }
     setX3dField(node.second, "coordIndex", textOf(indices));
   }
 

@@ -73,6 +73,25 @@ TEST(X3dPlain, LinesStayLines) {
   EXPECT_TRUE(counted.triangles.empty());
 }
 
+TEST(X3dPlain, ColoursAreKeptWhereTheyHaveAPlace) {
+  const std::string points = "<Coordinate point='0 0 0 1 0 0 1 1 0 0 1 0'/>", two = "<Color color='1 0 0 0 1 0'/>";
+  const auto load_set = [&](const std::string& type, const std::string& fields) {
+    return load("<Shape><" + type + ' ' + fields + '>' + points + two + "</" + type + "></Shape>");
+  };
+  EXPECT_FALSE(load_set("IndexedLineSet", "coordIndex='0 1 2 -1 3 0' colorIndex='0 1 0 -1 1 0'")
+                   .appearance.vertex_colours.empty());
+  const Model whole = load_set("IndexedLineSet", "coordIndex='0 1 2 -1 3 0' colorPerVertex='false'");
+  EXPECT_EQ(whole.segments.size(), 3u);
+  EXPECT_TRUE(whole.appearance.vertex_colours.empty());
+}
+
+TEST(X3dPlain, AnAppearanceMayHaveAnything) {
+  const Model model = load(
+      "<Shape><Appearance><PhysicalMaterial baseColor='0 0 1'/><PointProperties/><FillProperties/></Appearance>"
+      "<Box size='2 4 6'/></Shape>");
+  EXPECT_EQ(model.triangles.size(), 12u);
+}
+
 TEST(X3dPlain, WhatOnlyGroupsIsAGroup) {
   for (const std::string& nodes :
        {"<Anchor url='\"a.html\"'>" + kBox + "</Anchor>", "<Billboard>" + kBox + "</Billboard>",
