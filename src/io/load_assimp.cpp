@@ -31,6 +31,7 @@
 #include "io/x3d_bodies.h"
 #include "io/x3d_document.h"
 #include "io/x3d_plain.h"
+#include "io/x3d_prototypes.h"
 
 namespace hl {
 
@@ -172,7 +173,8 @@ std::optional<std::string> inPlaceOf(const ModelFile& file, std::vector<std::str
   constexpr std::size_t kMinObj = 16;
   if (file.ending != ".obj" && file.ending != ".x3d") return std::nullopt;
   const std::string text = contentOf(file.path).value_or("");
-  if (file.ending == ".x3d") return text.size() > kMaxX3dBytes ? std::nullopt : std::optional(plainX3d(text, warnings));
+  if (file.ending == ".x3d" && text.size() > kMaxX3dBytes) return std::nullopt;
+  if (file.ending == ".x3d") return withoutPrototypes(text, warnings);
   std::optional<std::string> cleaned = cleanedObj(text);
   if ((cleaned ? *cleaned : text).size() >= kMinObj) return cleaned;
   return cleaned.value_or(text) + std::string(kMinObj, '\n');
@@ -231,8 +233,8 @@ SceneModel readWithBodies(Assimp::Importer& importer, const ModelFile& file, con
   if (file.alone && !forbidOpening()) throw Error(kNoFilters);
   return readX3dBodies(text, [&](const std::string& document) {
     Model model;
-    addScene(importer, file, importer.ReadFileFromMemory(document.data(), document.size(), kAsWritten, "x3d"), {},
-             model);
+    const std::string plain = plainX3d(document, model.warnings);
+    addScene(importer, file, importer.ReadFileFromMemory(plain.data(), plain.size(), kAsWritten, "x3d"), {}, model);
     return model;
   });
 }
@@ -257,6 +259,7 @@ SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(doubl
     scene.model.warnings.insert(scene.model.warnings.begin(), model.warnings.begin(), model.warnings.end());
     return scene;
   }
+  if (file.ending == ".x3d" && in_place) in_place = plainX3d(*in_place, model.warnings);
   GltfHaptics haptics = hapticsOf(file);
   const aiScene* scene = readScene(importer, *folder, file, std::move(in_place), model);
   reportRefused(refused, scene != nullptr, model);

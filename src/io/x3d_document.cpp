@@ -138,12 +138,21 @@ void setX3dField(X3dTree& node, const std::string& name, const std::string& valu
   }
 }
 
-std::optional<std::string> x3dField(const X3dNode& node, const std::string& name) {
-  const auto attributes = node.second.find(kAttributes);
-  if (attributes == node.second.not_found()) return std::nullopt;
+std::optional<std::string> x3dField(const X3dTree& node, const std::string& name) {
+  const auto attributes = node.find(kAttributes);
+  if (attributes == node.not_found()) return std::nullopt;
   const auto field = attributes->second.find(name);
   if (field == attributes->second.not_found()) return std::nullopt;
   return field->second.data();
+}
+
+std::optional<std::string> x3dField(const X3dNode& node, const std::string& name) {
+  return x3dField(node.second, name);
+}
+
+void eraseX3dField(X3dTree& node, const std::string& name) {
+  const auto attributes = node.find(kAttributes);
+  if (attributes != node.not_found()) attributes->second.erase(name);
 }
 
 bool isX3dElement(const X3dNode& node) { return !node.first.empty() && node.first.front() != '<'; }

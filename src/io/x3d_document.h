@@ -32,6 +32,8 @@ std::string textOfX3d(const X3dTree& tree);
 
 /// A field as it is written, or nothing.
 std::optional<std::string> x3dField(const X3dNode& node, const std::string& name);
+std::optional<std::string> x3dField(const X3dTree& node, const std::string& name);
+void eraseX3dField(X3dTree& node, const std::string& name);
 /// Sets a field of the node whose fields and children these are.
 void setX3dField(X3dTree& node, const std::string& name, const std::string& value);
 /// Whether it is a node: not the fields of one, nor text.

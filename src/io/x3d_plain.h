@@ -6,10 +6,10 @@
 
 namespace hl {
 
-/// The same shapes in other words: prototypes are expanded; Anchor, Billboard, Collision, HAnim and CAD nodes are
-/// groups; a LOD is its first, finest level; strips and quads are faces, and lines of many points are many lines; lists
-/// have no commas, and axes of rotations have length 1. What cannot be shown (Inline, Text, ...) is left out with a
-/// warning. Throws hl::Error, one line, for what is no XML.
+/// The same shapes in other words, of a text without prototypes: groups of all kinds are Group or Transform, there
+/// again where they are used again; a LOD is its first, finest level, and a Switch its choice; strips and quads are
+/// faces, and lines of many points are many lines; lists have no commas, and axes of rotations have length 1. What
+/// cannot be shown (Inline, Text, ...) is left out with a warning. Throws hl::Error, one line, for what is no XML.
 std::string plainX3d(const std::string& text, std::vector<std::string>& warnings);
 
 }  // namespace hl

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/x3d_document.h"
 
 namespace hl {
 
@@ -129,19 +130,27 @@ class Expansion {
       connected.push_back(child);
     }
     for (const X3dNode& child : node.second) {
-      if (child.first == "IS") connectFields(child.second, values, connected);
+      if (child.first == "IS") connectFields(child.second, values, node.first, connected);
     }
     node.second.swap(connected);
   }
 
-  void connectFields(const X3dTree& is, const FieldValues& values, X3dTree& node) {
+  // The fields of an instance within a prototype are nodes of their own.
+  void connectFields(const X3dTree& is, const FieldValues& values, const std::string& type, X3dTree& node) {
     for (const X3dNode& connection : is) {
       const auto field = x3dField(connection, "nodeField");
       const auto value = values.find(x3dField(connection, "protoField").value_or(""));
       if (!field || value == values.end()) continue;
-      if (value->second.text) setX3dField(node, *field, *value->second.text);
-      for (const X3dNode& one : value->second.nodes) node.push_back(one);
       countNodes(value->second.nodes.size());
+      X3dTree given(value->second.nodes);
+      if (type == "ProtoInstance") {
+        setX3dField(given, "name", *field);
+        if (value->second.text) setX3dField(given, "value", *value->second.text);
+        node.push_back({"fieldValue", given});
+        continue;
+      }
+      if (value->second.text) setX3dField(node, *field, *value->second.text);
+      for (const X3dNode& one : given) node.push_back(one);
     }
   }
 
@@ -168,10 +177,12 @@ class Expansion {
 
 }  // namespace
 
-void expandPrototypes(X3dTree& tree, std::vector<std::string>& warnings) {
+std::string withoutPrototypes(const std::string& text, std::vector<std::string>& warnings) {
+  X3dTree tree = parseX3d(text);
   Expansion expansion(warnings);
   expansion.collect(tree);
   expansion.expand(tree, 0);
+  return textOfX3d(tree);
 }
 
 }  // namespace hl

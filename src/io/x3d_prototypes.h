@@ -4,13 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "io/x3d_document.h"
-
 namespace hl {
 
-/// Instances of unknown prototypes, those of other files too, are left out with a warning. Names of the body of a
-/// prototype become names of their own in each instance. Throws hl::Error where prototypes are nested too deep or make
-/// too many nodes.
-void expandPrototypes(X3dTree& tree, std::vector<std::string>& warnings);
+/// The same document without prototypes. Instances of unknown ones, those of other files too, are left out with a
+/// warning. Names of the body of a prototype become names of their own in each instance. Throws hl::Error, one line,
+/// for what is no XML, and where prototypes are nested too deep or make too many nodes.
+std::string withoutPrototypes(const std::string& text, std::vector<std::string>& warnings);
 
 }  // namespace hl

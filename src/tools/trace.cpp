@@ -106,6 +106,7 @@ std::vector<std::string> tracedJoints(const Snapshot& snapshot) {
       by_key[joint.key != 0 ? joint.key : place] = joint.name;
   }
   std::vector<std::string> names;
+  names.reserve(by_key.size());
   for (const auto& [key, name] : by_key) names.push_back(name);
   return names;
 }

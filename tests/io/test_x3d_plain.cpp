@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
 
 #include "base/error.h"
 #include "io/load_model.h"
+#include "io/x3d_prototypes.h"
 #include "scene/scene_model.h"
 #include "temp_folder.h"
 
@@ -142,6 +144,104 @@ TEST(X3dPlain, APrototypeMayUseAnother) {
   EXPECT_TRUE(sizeOf(load(kCrate + pair + "<ProtoInstance name='Pair'/>")).isApprox(Vec3(13, 3, 3)));
 }
 
+TEST(X3dPlain, AGroupOfNothingEndsNothing) {
+  for (const char* type : {"Group", "Transform", "StaticGroup", "Anchor", "Switch", "LOD", "Collision"}) {
+    const std::string empty = "<" + std::string(type) + "/>";
+    EXPECT_EQ(load(empty + kBox + "<Transform>" + empty + "</Transform>" + empty + kBox).triangles.size(), 24u) << type;
+  }
+}
+
+TEST(X3dPlain, AGroupIsThereAgainWhereItIsUsed) {
+  const Model model = load("<Group DEF='g'>" + kBox + "<Transform translation='0 10 0'>" + kBox +
+                           "</Transform></Group><Transform translation='100 0 0'><Group USE='g'/></Transform>" + kBox);
+  EXPECT_EQ(model.triangles.size(), 12u * 5);
+  EXPECT_TRUE(sizeOf(model).isApprox(Vec3(102, 14, 6)));
+  const Model hidden = load("<LOD>" + kBox +
+                            "<Transform DEF='t' translation='0 10 0'><Shape DEF='s'><Box size='1 1 1'/>"
+                            "</Shape></Transform></LOD><Group><Shape USE='s'/></Group><Transform USE='t'/>");
+  EXPECT_EQ(hidden.triangles.size(), 36u);
+}
+
+TEST(X3dPlain, AGroupWithinItselfIsLeftOut) {
+  const Model model = load("<Group DEF='g'>" + kBox + "<Group USE='g'/></Group>");
+  EXPECT_EQ(model.triangles.size(), 12u);
+  EXPECT_TRUE(warns(model, "USE of 'g' within it"));
+}
+
+TEST(X3dPlain, WhatIsUsedWithoutEndIsRefused) {
+  std::string nodes = "<Group DEF='g0'>" + kBox + "</Group>";
+  for (int i = 1; i < 12; ++i) {
+    nodes += "<Group DEF='g" + std::to_string(i) + "'>";
+    for (int k = 0; k < 8; ++k) nodes += "<Group USE='g" + std::to_string(i - 1) + "'/>";
+    nodes += "</Group>";
+  }
+  std::vector<std::string> warnings;
+  EXPECT_THROW(plainX3d(document(nodes), warnings), Error);
+}
+
+TEST(X3dPlain, AConeStandsOnItsBase) {
+  const Model cone = load("<Shape><Cone bottomRadius='2' height='6'/></Shape>");
+  EXPECT_TRUE(sizeOf(cone).isApprox(Vec3(4, 6, 4)));
+  for (const Vec3& p : cone.positions) EXPECT_NEAR(Vec2(p.x(), p.z()).norm(), p.y() > 0 ? 0 : 2, 1e-6);
+  EXPECT_TRUE(cone.warnings.empty());
+  EXPECT_EQ(load("<Shape><Cone bottom='false'/></Shape>").triangles.size(), 64u);
+}
+
+// The corners of the section lie in planes at right angles to the spine, about its points.
+TEST(X3dPlain, AnExtrusionIsAtRightAnglesToItsSpine) {
+  const Vec3 size = sizeOf(
+      load("<Shape><Extrusion crossSection='.1 .1 .1 -.1 -.1 -.1 -.1 .1 .1 .1' spine='0 0 0 0 1 -1 0 2 -2'/></Shape>"));
+  const double out = 0.1 / std::sqrt(2.0);
+  EXPECT_TRUE(size.isApprox(Vec3(0.2, 2 + 2 * out, 2 + 2 * out), 1e-6)) << size.transpose();
+  EXPECT_TRUE(sizeOf(load("<Shape><Extrusion/></Shape>")).isApprox(Vec3(2, 1, 2)));
+  const std::string turned = "<Shape><Extrusion scale='1 2' orientation='0 9 0 1.5707963267948966'/></Shape>";
+  EXPECT_TRUE(sizeOf(load(turned)).isApprox(Vec3(4, 1, 2), 1e-6));
+  EXPECT_EQ(load("<Shape><Extrusion beginCap='false' endCap='false'/></Shape>").triangles.size(), 8u);
+  // A square ring: each mitre is as wide as the section over the cosine of half the bend.
+  const Model ring = load(
+      "<Shape><Extrusion crossSection='.1 .1 .1 -.1 -.1 -.1 -.1 .1 .1 .1' beginCap='false' endCap='false' "
+      "spine='1 0 1 1 0 -1 -1 0 -1 -1 0 1 1 0 1'/></Shape>");
+  EXPECT_EQ(ring.triangles.size(), 32u);
+  EXPECT_NEAR(sizeOf(ring).y(), 0.2, 1e-6);
+}
+
+TEST(X3dPlain, WhatIsNotVisibleIsNotThere) {
+  EXPECT_EQ(load("<Shape visible='false'><Box size='9 9 9'/></Shape><Transform visible='false'>" + kBox +
+                 "</Transform>" + kBox)
+                .triangles.size(),
+            12u);
+}
+
+TEST(X3dPlain, NormalsOfTriangleSetsAreRead) {
+  const Model model = load(
+      "<Shape><TriangleSet><Coordinate point='0 0 0 1 0 0 0 1 0'/><Normal vector='0 0 1 0 0 1 0 0 1'/>"
+      "<TextureCoordinate point='0 0 1 0 0 1'/></TriangleSet></Shape>");
+  EXPECT_EQ(model.triangles.size(), 1u);
+  ASSERT_EQ(model.normals.size(), 3u);
+  EXPECT_EQ(model.normals[0], Vec3::UnitZ());
+}
+
+TEST(X3dPlain, DoubledEndsAndTooLargeCountsAreNoCorners) {
+  EXPECT_EQ(load("<Shape><IndexedFaceSet coordIndex='0 1 2 -1 -1 0 2 3 -7'>" + kSquare + "</IndexedFaceSet></Shape>")
+                .triangles.size(),
+            2u);
+  const Model model =
+      load("<Shape><TriangleStripSet stripCount='400'>" + kSquare + "</TriangleStripSet></Shape>" + kBox);
+  EXPECT_EQ(model.triangles.size(), 12u);
+  EXPECT_TRUE(warns(model, "more corners than it has points"));
+}
+
+TEST(X3dPlain, AFieldMayComeFromAnInstanceAroundIt) {
+  const std::string outer =
+      "<ProtoDeclare name='Outer'><ProtoInterface><field name='q' type='SFVec3f' accessType='inputOutput' value='1 1 "
+      "1'/>"
+      "</ProtoInterface><ProtoBody><ProtoInstance name='Crate'><IS><connect nodeField='size' protoField='q'/></IS>"
+      "</ProtoInstance></ProtoBody></ProtoDeclare>";
+  const Model model =
+      load(kCrate + outer + "<ProtoInstance name='Outer'><fieldValue name='q' value='3 3 3'/></ProtoInstance>");
+  EXPECT_TRUE(sizeOf(model).isApprox(Vec3(13, 3, 3)));
+}
+
 TEST(X3dPlain, WhatIsLeftOutIsNamed) {
   const Model model =
       load("<Inline url='\"b.x3d\"'/><Shape><Text string='\"a\"'/></Shape><ProtoInstance name='P'/>" + kBox);
@@ -158,10 +258,10 @@ TEST(X3dPlain, PrototypesThatGrowWithoutEndAreRefused) {
   };
   std::vector<std::string> warnings;
   declare("A", "A", 1);
-  EXPECT_THROW(plainX3d(document(nodes + "<ProtoInstance name='A'/>"), warnings), Error);
+  EXPECT_THROW(withoutPrototypes(document(nodes + "<ProtoInstance name='A'/>"), warnings), Error);
   nodes.clear();
   for (int i = 0; i < 12; ++i) declare("L" + std::to_string(i), "L" + std::to_string(i + 1), 10);
-  EXPECT_THROW(plainX3d(document(nodes + "<ProtoInstance name='L0'/>"), warnings), Error);
+  EXPECT_THROW(withoutPrototypes(document(nodes + "<ProtoInstance name='L0'/>"), warnings), Error);
 }
 
 TEST(X3dPlain, DamagedFilesNeverHarm) {
@@ -175,7 +275,7 @@ TEST(X3dPlain, DamagedFilesNeverHarm) {
     if (round % 3 == 0) text.erase(random() % text.size(), random() % 40);
     std::vector<std::string> warnings;
     try {
-      EXPECT_FALSE(plainX3d(text, warnings).empty());
+      EXPECT_FALSE(plainX3d(withoutPrototypes(text, warnings), warnings).empty());
     } catch (const Error& error) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
