@@ -1,4 +1,5 @@
 #include "bench_output.h"
+#include "standard_streams.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -94,14 +95,14 @@ void BenchOutput::note(const std::string& text) {
 void BenchOutput::progress(const std::string& text) {
   if (isatty(STDERR_FILENO) == 0) return;
   clearProgress();
-  fmt::print(stderr, "{}", text);
+  tell("{}", text);
   std::fflush(stderr);
   progress_width_ = text.size();
 }
 
 void BenchOutput::clearProgress() {
   if (progress_width_ == 0) return;
-  fmt::print(stderr, "\r{:{}}\r", "", progress_width_);
+  tell("\r{:{}}\r", "", progress_width_);
   std::fflush(stderr);
   progress_width_ = 0;
 }

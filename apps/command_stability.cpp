@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "io/output_file.h"
 #include "stability_on_bodies.h"
+#include "standard_streams.h"
 #include "tools/stability.h"
 #include "value_checks.h"
 
@@ -85,8 +86,8 @@ std::vector<StabilityRow> rowsOf(const StabilityOptions& options) {
 // A line that rewrites itself, on terminals only.
 void showProgress(std::size_t done, std::size_t all) {
   if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\rmeasured: {} of {}", done, all);
-  if (done == all) fmt::print(stderr, "\r                          \r");
+  tell("\rmeasured: {} of {}", done, all);
+  if (done == all) tell("\r                          \r");
   std::fflush(stderr);
 }
 
@@ -200,6 +201,9 @@ void addStabilityCommand(CLI::App& app) {
   for (const char* other : {"--device", "--grips", "--damping", "--jitter", "--bends", "--quick"})
     body->excludes(command->get_option(other));
   command->add_option("--csv", options->csv, "write the rows to this file too");
+  for (const char* other :
+       {"--device", "--grips", "--rates", "--delays", "--damping", "--jitter", "--bends", "--quick", "--csv"})
+    theory->excludes(command->get_option(other));
   command->callback([options] { run(*options); });
 }
 

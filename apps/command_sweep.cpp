@@ -14,6 +14,7 @@
 #include "fleet/fleet_report.h"
 #include "fleet/slurm.h"
 #include "fleet/worker_pool.h"
+#include "standard_streams.h"
 #include "sweep_progress.h"
 #include "sweep_worker.h"
 #include "trace_options.h"
@@ -96,10 +97,10 @@ void printFailures(const SweepRun& run, const FleetProgress& progress) {
   constexpr std::size_t kMaxListed = 10;
   for (std::size_t i = 0; i < std::min(kMaxListed, progress.failures.size()); ++i) {
     const auto& [task, why] = progress.failures[i];
-    fmt::print(stderr, "failed: {}: {}\n", traceLine(run, run.plan.tasks[task]), why);
+    tell("failed: {}: {}\n", traceLine(run, run.plan.tasks[task]), why);
   }
   if (progress.failed > kMaxListed)
-    fmt::print(stderr, "and {} more: the column failure of the table has all\n", progress.failed - kMaxListed);
+    tell("and {} more: the column failure of the table has all\n", progress.failed - kMaxListed);
 }
 
 void listTasks(const SweepRun& run) {
@@ -166,8 +167,8 @@ void runTasks(const SweepRun& run) {
   if (!todo.empty())
     runWorkers({self, {"hl", kSweepWorker, run.folder + "/results"}}, jobsOf(run.call), todo.size(), callbacks);
   const double seconds = progress.end();
-  fmt::print(stderr, "{} tasks run in {:.1f} s, {:.0f} a second; {} were done before\n", todo.size(), seconds,
-             static_cast<double>(todo.size()) / std::max(seconds, 1e-9), mine - todo.size());
+  tell("{} tasks run in {:.1f} s, {:.0f} a second; {} were done before\n", todo.size(), seconds,
+       static_cast<double>(todo.size()) / std::max(seconds, 1e-9), mine - todo.size());
 }
 
 SlurmSweep slurmOf(const SweepRun& run) {

@@ -22,6 +22,7 @@
 #include "record/recorder.h"
 #include "serving.h"
 #include "session/touch_server.h"
+#include "standard_streams.h"
 #include "surface_options.h"
 #include "touch_options.h"
 #include "value_checks.h"
@@ -54,8 +55,8 @@ void printDuty(const LoopTotals& servo) {
       text += fmt::format(" {} longer,", servo.duty[i]);
   }
   if (!text.empty()) text.back() = ';';
-  fmt::print(stderr, "steps by part of the period:{} {} page faults, {} waits, preempted {} times\n", text,
-             servo.page_faults, servo.waits, servo.preempted);
+  tell("steps by part of the period:{} {} page faults, {} waits, preempted {} times\n", text, servo.page_faults,
+       servo.waits, servo.preempted);
 }
 
 void printVibration(TouchSession& session) {
@@ -64,17 +65,17 @@ void printVibration(TouchSession& session) {
   session.views(servo, proxy);
   const VibrationView& vibration = servo.vibration;
   if (vibration.alarms == 0) return;
-  fmt::print(stderr, "the spring and the hand shook {} times, and it was softened", vibration.alarms);
-  if (vibration.limit_N_m > 0) fmt::print(stderr, "; at the end below {:.0f} N/m", vibration.limit_N_m);
-  fmt::print(stderr, "\n");
+  tell("the spring and the hand shook {} times, and it was softened", vibration.alarms);
+  if (vibration.limit_N_m > 0) tell("; at the end below {:.0f} N/m", vibration.limit_N_m);
+  tell("\n");
 }
 
 void printBeginning(const std::string& scene, const TouchSession& session) {
-  fmt::print(stderr, "{}: {} primitives; device: {}{}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n",
-             printable(scene), session.snapshot()->primitives, headOf(session.label().name), session.deviceInfo().name,
-             session.servoRate_Hz(), session.workspace().world_per_device);
+  tell("{}: {} primitives; device: {}{}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n", printable(scene),
+       session.snapshot()->primitives, headOf(session.label().name), session.deviceInfo().name, session.servoRate_Hz(),
+       session.workspace().world_per_device);
   if (!session.grant().why.empty())
-    fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
+    tell("the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
 }
 
 bool hasAnyHand(TouchServer& touch) {
@@ -95,17 +96,17 @@ void requireRecordable(const TouchOptions& options, const std::vector<NamedDevic
 }
 
 void printTotals(TouchSession& session) {
-  if (!session.label().name.empty()) fmt::print(stderr, "{}:\n", session.label().name);
+  if (!session.label().name.empty()) tell("{}:\n", session.label().name);
   const auto line = [](const char* name, const LoopTotals& t) {
-    fmt::print(stderr, "{:<16}{:>10} steps, {} deadlines missed, at most {:.0f} us late\n", name, t.steps, t.missed,
-               1e-3 * static_cast<double>(t.late_max_ns));
+    tell("{:<16}{:>10} steps, {} deadlines missed, at most {:.0f} us late\n", name, t.steps, t.missed,
+         1e-3 * static_cast<double>(t.late_max_ns));
   };
   const LoopTotals servo = session.servoTotals();
   line("servo:", servo);
   printDuty(servo);
   const LoopTotals ticks = session.proxyTotals();
   line("proxy:", ticks);
-  fmt::print(stderr, "{} of {} ticks were part of a servo step\n", session.ticksInServoSteps(), ticks.steps);
+  tell("{} of {} ticks were part of a servo step\n", session.ticksInServoSteps(), ticks.steps);
   printVibration(session);
   if (session.settings().timer_reference) line("bare timer:", session.referenceTotals());
 }
@@ -126,9 +127,7 @@ TouchServerSettings serverSettings(const TouchOptions& options, std::vector<Name
   RecorderSettings recorder = options.recorder;
   recorder.version = HL_VERSION;
   recorder.several = settings.devices.size() > 1;
-  recorder.report = [](const std::string& device, const std::string& line) {
-    fmt::print(stderr, "{}{}\n", headOf(device), line);
-  };
+  recorder.report = [](const std::string& device, const std::string& line) { tell("{}{}\n", headOf(device), line); };
   settings.touch.sink = recorderWith(recorder);
   return settings;
 }
@@ -157,9 +156,8 @@ void runTouch(TouchOptions options) {
     http.upload.limit_bytes = kUpload_bytes;
     http.upload.open = [&](int descriptor, const std::string& name) { return opener.open(descriptor, name); };
   }
-  const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
-  const auto share =
-      makeShareBridge(options.share, touch, [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+  const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) { tell("{}\n", line); });
+  const auto share = makeShareBridge(options.share, touch, [](const std::string& line) { tell("{}\n", line); });
   const auto& recordings = options.recorder.pages;
   ViewerFeedSettings page = pageOf(touch, readerOf(share.get()));
   page.recordings = recordings;

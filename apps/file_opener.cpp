@@ -13,6 +13,7 @@
 #include "load_snapshot.h"
 #include "monitor/event_log.h"
 #include "scene_report.h"
+#include "standard_streams.h"
 #include "surfaces/point_cloud.h"
 
 namespace hl {
@@ -69,10 +70,9 @@ std::string FileOpener::open(int descriptor, const std::string& name) {
   TouchSession& session = touch_.device();
   if (smooth_) shade(session, !isSceneFile("scene" + sentEndingOf(name)));
   const double scale = session.workspace().world_per_device;
-  fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", printable(name),
-             scene->primitives, scale);
+  tell("{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", printable(name), scene->primitives, scale);
   const std::vector<std::string> warnings = warningsOf(*scene);
-  for (const std::string& warning : warnings) fmt::print(stderr, "{}: {}\n", printable(name), printable(warning));
+  for (const std::string& warning : warnings) tell("{}: {}\n", printable(name), printable(warning));
   return answerOf(*scene, warnings, scale);
 }
 

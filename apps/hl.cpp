@@ -12,6 +12,7 @@
 #include "file_opener.h"
 #include "io/load_sent.h"
 #include "option_errors.h"
+#include "standard_streams.h"
 #include "sweep_worker.h"
 
 namespace {
@@ -22,10 +23,7 @@ std::string unknownCommand(const CLI::App& app, const std::string& word) {
   return "there is no command '" + word + "'; there are " + names;
 }
 
-}  // namespace
-
-// NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   if (argc == 3 && std::string_view(argv[1]) == hl::kReadSent) hl::readSent(argv[2]);
   if (argc == 3 && std::string_view(argv[1]) == hl::kSweepWorker) return hl::runSweepWorker(argv[2]);
   CLI::App app("HL, the haptic library: makes 3-D worlds touchable.", "hl");
@@ -50,18 +48,25 @@ int main(int argc, char** argv) {
     return failed.get_exit_code();
   } catch (const CLI::ParseError& error) {
     const bool unknown = argc > 1 && app.get_subcommands().empty();
-    fmt::print(stderr, "hl: {} (try --help)\n",
-               hl::printable(unknown ? unknownCommand(app, argv[1]) : hl::errorText(error)));
+    hl::tell("hl: {} (try --help)\n", hl::printable(unknown ? unknownCommand(app, argv[1]) : hl::errorText(error)));
     return 2;
   } catch (const hl::Error& error) {
-    fmt::print(stderr, "hl: {}\n", hl::printable(error.what()));
+    hl::tell("hl: {}\n", hl::printable(error.what()));
     return 2;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "hl: not enough memory for this scene\n");
+    hl::tell("hl: not enough memory for this scene\n");
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hl: unexpected failure: {}\n", hl::printable(error.what()));
+    hl::tell("hl: unexpected failure: {}\n", hl::printable(error.what()));
     return 1;
   }
   return 0;
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(bugprone-exception-escape): only when there is no memory for a line
+int main(int argc, char** argv) {
+  hl::prepareStreams();
+  return hl::codeWithOutput(run(argc, argv), "hl");
 }

@@ -20,6 +20,7 @@
 #include "record/recorder.h"
 #include "serving.h"
 #include "session/touch_server.h"
+#include "standard_streams.h"
 #include "systemd_notify.h"
 #include "token_file.h"
 
@@ -156,10 +157,7 @@ std::string errorText(const CLI::App& app, const CLI::ParseError& error) {
   return of_file ? text + ", on the command line or in " + config->as<std::string>() : text;
 }
 
-}  // namespace
-
-// NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("The HL server: a haptic device and a scene, for clients and pages.", "hld");
   app.set_version_flag("--version", std::string("hld ") + HL_VERSION);
   hl::HldOptions options;
@@ -171,17 +169,25 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "hld: {} (try --help)\n", hl::printable(errorText(app, error)));
+    hl::tell("hld: {} (try --help)\n", hl::printable(errorText(app, error)));
     return 2;
   } catch (const hl::Error& error) {
-    fmt::print(stderr, "hld: {}\n", hl::printable(error.what()));
+    hl::tell("hld: {}\n", hl::printable(error.what()));
     return 2;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "hld: not enough memory for this scene\n");
+    hl::tell("hld: not enough memory for this scene\n");
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hld: unexpected failure: {}\n", hl::printable(error.what()));
+    hl::tell("hld: unexpected failure: {}\n", hl::printable(error.what()));
     return 1;
   }
   return 0;
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(bugprone-exception-escape): only when there is no memory for a line
+int main(int argc, char** argv) {
+  hl::prepareStreams();
+  return hl::codeWithOutput(run(argc, argv), "hld");
 }

@@ -11,6 +11,7 @@
 #include "base/utf8.h"
 #include "io/load_scene.h"
 #include "scene_report.h"
+#include "standard_streams.h"
 
 namespace hl {
 
@@ -19,8 +20,8 @@ namespace {
 // A line that rewrites itself, on terminals only.
 void showProgress(double fraction) {
   if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\rreading: {:3.0f} %", 100 * fraction);
-  if (fraction >= 1) fmt::print(stderr, "\r              \r");
+  tell("\rreading: {:3.0f} %", 100 * fraction);
+  if (fraction >= 1) tell("\r              \r");
   std::fflush(stderr);
 }
 
@@ -57,7 +58,7 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options, LaterF
   if (later == LaterFiles::kNone && !(options.cad == CadMeshing{})) requireCad(*snapshot, options.scene);
   const std::string file = options.scene + ":";  // which those of a scene file begin with, and a line
   for (const std::string& warning : warningsOf(*snapshot))
-    fmt::print(stderr, "{}\n", printable(warning.starts_with(file) ? warning : file + " " + warning));
+    tell("{}\n", printable(warning.starts_with(file) ? warning : file + " " + warning));
   if (snapshot->primitives == 0) throw Error(options.scene + ": nothing in it can be touched");
   return snapshot;
 }

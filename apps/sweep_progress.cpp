@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "fleet/fleet_texts.h"
+#include "standard_streams.h"
 
 namespace hl {
 
@@ -21,12 +22,12 @@ void SweepProgress::report() {
   if (now_s - reported_s_ < (terminal_ ? kOnTerminal_s : kElsewhere_s)) return;
   reported_s_ = now_s;
   const std::string line = fleetProgressText(done_, tasks_, now_s);
-  terminal_ ? fmt::print(stderr, "\r{}\x1b[K", line) : fmt::print(stderr, "{}\n", line);
+  terminal_ ? tell("\r{}\x1b[K", line) : tell("{}\n", line);
   std::fflush(stderr);
 }
 
 double SweepProgress::end() {
-  if (terminal_) fmt::print(stderr, "\r\x1b[K");
+  if (terminal_) tell("\r\x1b[K");
   return seconds();
 }
 

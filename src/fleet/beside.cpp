@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -20,6 +21,14 @@ std::string nameBeside(const std::string& path) {
   return fmt::format("{}{}{:08x}{:08x}", path, kBeside, random(), random());
 }
 
+bool isLeftBeside(const std::string& file) {
+  constexpr std::chrono::minutes kAge{10};
+  if (std::filesystem::path(file).filename().string().find(kBeside) == std::string::npos) return false;
+  std::error_code failed;
+  const auto written = std::filesystem::last_write_time(file, failed);
+  return !failed && std::filesystem::file_time_type::clock::now() - written > kAge;
+}
+
 void removeBeside(const std::string& path) {
   const std::filesystem::path place(path);
   const std::string begin = place.filename().string() + kBeside;
@@ -27,7 +36,8 @@ void removeBeside(const std::string& path) {
   for (std::filesystem::directory_iterator at(place.parent_path(), failed), end; !failed && at != end;
        at.increment(failed)) {
     std::error_code gone;
-    if (at->path().filename().string().starts_with(begin)) std::filesystem::remove(at->path(), gone);
+    const bool is_of = at->path().filename().string().starts_with(begin);
+    if (is_of && isLeftBeside(at->path().string())) std::filesystem::remove(at->path(), gone);
   }
 }
 

@@ -10,7 +10,9 @@ inline constexpr const char* kBeside = ".part-";
 
 /// A name in the folder of `path` that nobody else has, on no machine.
 std::string nameBeside(const std::string& path);
-/// Removes the files beside `path` that killed programs have left there.
+/// Whether it is such a file that a killed program has left: nothing has been written to it for ten minutes.
+bool isLeftBeside(const std::string& file);
+/// Removes those beside `path`.
 void removeBeside(const std::string& path);
 /// Puts the file in its place. Throws hl::Error, with the name of the place, and removes it where it cannot.
 void putInPlace(const std::string& beside, const std::string& path);

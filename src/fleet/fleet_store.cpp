@@ -93,7 +93,7 @@ void FleetStore::removeRemains() const {
   std::error_code failed;
   for (fs::recursive_directory_iterator at(folder_, failed), end; !failed && at != end; at.increment(failed)) {
     std::error_code gone;
-    if (at->path().filename().string().find(kBeside) != std::string::npos) fs::remove(at->path(), gone);
+    if (isLeftBeside(at->path().string())) fs::remove(at->path(), gone);
   }
 }
 

@@ -74,7 +74,7 @@ void BlackBoxes::step(const ServoRecord& record) noexcept {
 
 // A fault is written a little after it was; a stall at once, as no more steps may come.
 void BlackBoxes::look(bool all) {
-  remember();
+  if (isOn()) remember();
   if (stalled_.exchange(false, std::memory_order_acquire)) write(rings_.steps.pushed(), FaultReason::kStalled);
   const std::uint64_t fault = fault_.load(std::memory_order_acquire);
   if (fault == written_fault_) return;
@@ -111,6 +111,7 @@ void BlackBoxes::remember() {
 }
 
 void BlackBoxes::write(std::uint64_t end, FaultReason reason) {
+  if (!isOn()) return report(fmt::format("fault: {}; no black box: they are off", faultText(reason)));
   const std::filesystem::path folder = settings_.black_box_folder;
   try {
     std::filesystem::create_directories(folder);

@@ -53,6 +53,7 @@ class BlackBoxes {
     std::int64_t time_ns = 0;
   };
 
+  bool isOn() const { return !settings_.black_box_folder.empty(); }
   void remember();
   void followScene(std::uint64_t scene);
   void write(std::uint64_t end, FaultReason reason);

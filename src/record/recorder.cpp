@@ -30,7 +30,7 @@ constexpr int kLastTries = 10;
 std::size_t room(bool wanted, double rate_Hz) { return wanted ? static_cast<std::size_t>(kRing_s * rate_Hz) : 1; }
 
 bool recordsAny(const RecorderSettings& settings) {
-  return !settings.file.empty() || settings.pages || !settings.black_box_folder.empty();
+  return !settings.file.empty() || settings.pages || !settings.black_box_folder.empty() || settings.report;
 }
 
 std::int64_t unixNow_ms() {
@@ -105,7 +105,7 @@ void Recorder::run() {
 
 // What it could not do for want of memory it does the next time.
 void Recorder::drain(bool all) {
-  if (!settings_.black_box_folder.empty()) boxes_.look(all);
+  boxes_.look(all);
   const bool for_pages = settings_.pages && settings_.file.empty();
   try {
     if (for_pages) followPages();

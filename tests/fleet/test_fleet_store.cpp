@@ -87,23 +87,36 @@ TEST(FleetStores, RememberAFailureUntilThereIsAResult) {
   EXPECT_TRUE(store.find(name));
 }
 
+void makeOld(const fs::path& file) {
+  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::minutes(11));
+}
+
 TEST(FleetStores, RemoveWhatKilledProgramsLeft) {
   const FleetStore store(test::tempFile("remains"));
   store.keep(sample());
   fs::create_directories(test::tempFile("remains/bb"));
-  std::ofstream(test::tempFile("remains/bb/x.result.part-0123456789abcdef")) << "half";
+  const fs::path left = test::tempFile("remains/bb/x.result.part-0123456789abcdef");
+  const fs::path written_now = test::tempFile("remains/bb/y.result.part-0123456789abcdef");
+  std::ofstream(left) << "half";
+  std::ofstream(written_now) << "half";
+  makeOld(left);
   store.removeRemains();
-  EXPECT_FALSE(fs::exists(test::tempFile("remains/bb/x.result.part-0123456789abcdef")));
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(written_now));
   EXPECT_TRUE(store.find(kName));
 }
 
 TEST(FleetStores, RemovesWhatKilledProgramsLeftOfATable) {
   const std::string path = test::tempFile("table.npz"), left = nameBeside(path),
                     other = test::tempFile("table.npz.bak");
+  const std::string written_now = nameBeside(path);
   std::ofstream(left) << "half";
+  std::ofstream(written_now) << "half";
   std::ofstream(other) << "mine";
+  makeOld(left);
   removeBeside(path);
   EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(written_now));
   EXPECT_TRUE(fs::exists(other));
 }
 
