@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/direction.h"
@@ -26,7 +27,7 @@ struct Extrusion {
 
 std::vector<double> numbersOf(const X3dTree& node, const char* field, std::vector<double> otherwise) {
   const auto text = x3dField(node, field);
-  return text ? x3dNumbers(*text) : otherwise;
+  return text ? x3dNumbers(*text) : std::move(otherwise);
 }
 
 Extrusion extrusionOf(const X3dTree& node) {

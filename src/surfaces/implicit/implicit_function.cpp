@@ -230,7 +230,7 @@ double ImplicitFunction::at(std::size_t number, const Vec3& p) const {
 std::size_t ImplicitFunction::bytes() const {
   std::size_t bytes = sizeof(*this) + nodes_.size() * sizeof(Node);
   for (const SmoothFunction& sheet : sheets_) bytes += sizeof(sheet) + 2 * sheet.bodies() * sizeof(SmoothBody);
-  for (const auto& list : conditions_) bytes += sizeof(list) + list.size() * sizeof(Condition);
+  for (const auto& list : conditions_) bytes += sizeof(std::vector<Condition>) + list.size() * sizeof(Condition);
   return bytes;
 }
 
