@@ -64,8 +64,8 @@ Conversation Conversation::open(const ServerUrl& url) {
 }
 
 double Conversation::springStiffness_N_m() const {
-  const double said = stiffness_N_m_.value_or(view_.device().stiffness_n_m()),
-               most = view_.device().stiffness_max_n_m();
+  const double said = stiffness_N_m_.value_or(view_.device().stiffness_n_m());
+  const double most = view_.device().stiffness_max_n_m();
   return most > 0 ? std::min(said, most) : said;  // 0: not known
 }
 

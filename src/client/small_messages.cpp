@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "client/fault.h"
+#include "session/limits.h"
 
 namespace hl::client {
 
@@ -56,7 +57,7 @@ void SmallMessages::sendCommands(Link& link) {
     *message.mutable_body_command() = std::move(commands[0]);
     commands.Clear();
   } else {
-    const int count = std::min(commands.size(), kCommandsPerMessage);
+    const int count = std::min(commands.size(), kMaxCommandsPerMessage);
     for (int i = 0; i < count; ++i) *message.mutable_body_commands()->add_commands() = std::move(commands[i]);
     commands.DeleteSubrange(0, count);
   }

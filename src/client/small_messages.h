@@ -15,8 +15,6 @@ namespace hl::client {
 
 /// Half of what a server takes from a session; frames and uploads have the rest.
 inline constexpr double kSmallMessages_Hz = 1000;
-/// As many as the server takes in a message.
-inline constexpr int kCommandsPerMessage = 256;
 /// Commands to bodies that may wait; more are refused.
 inline constexpr int kMaxWaitingCommands = 4096;
 

@@ -13,7 +13,6 @@ namespace hl {
 
 namespace {
 
-constexpr const char* kAttributes = "<xmlattr>";
 constexpr int kDeepestElement = 500;  // the parser takes some of the stack for each
 // What a browser of X3D never shows, and what says which event goes where.
 constexpr std::array<std::string_view, 8> kMovers{"RigidBodyCollection", "RigidBody",      "CollisionCollection",
@@ -72,7 +71,7 @@ class Restorer {
   void restore(X3dTree& parent, int depth = 0) {
     if (depth > 2 * kDeepestElement) throw Error("its nodes are nested too deep");
     for (X3dNode& child : parent) {
-      if (child.first == kAttributes) continue;
+      if (child.first == kX3dFields) continue;
       if (const auto use = x3dField(child, "USE"); use && !known_.contains(*use)) {
         if (const X3dNode* definition = document_.definitionOf(child)) child.second = definition->second;
       }
@@ -128,8 +127,8 @@ std::string textOfX3d(const X3dTree& tree) {
 }
 
 void setX3dField(X3dTree& node, const std::string& name, const std::string& value) {
-  if (node.count(kAttributes) == 0) node.push_front({kAttributes, X3dTree()});
-  X3dTree& fields = node.find(kAttributes)->second;
+  if (node.count(kX3dFields) == 0) node.push_front({kX3dFields, X3dTree()});
+  X3dTree& fields = node.find(kX3dFields)->second;
   const auto field = fields.find(name);
   if (field != fields.not_found()) {
     field->second.data() = value;
@@ -139,7 +138,7 @@ void setX3dField(X3dTree& node, const std::string& name, const std::string& valu
 }
 
 std::optional<std::string> x3dField(const X3dTree& node, const std::string& name) {
-  const auto attributes = node.find(kAttributes);
+  const auto attributes = node.find(kX3dFields);
   if (attributes == node.not_found()) return std::nullopt;
   const auto field = attributes->second.find(name);
   if (field == attributes->second.not_found()) return std::nullopt;
@@ -151,7 +150,7 @@ std::optional<std::string> x3dField(const X3dNode& node, const std::string& name
 }
 
 void eraseX3dField(X3dTree& node, const std::string& name) {
-  const auto attributes = node.find(kAttributes);
+  const auto attributes = node.find(kX3dFields);
   if (attributes != node.not_found()) attributes->second.erase(name);
 }
 
@@ -173,7 +172,7 @@ X3dDocument::X3dDocument(const std::string& text) : tree_(parseX3d(text)) { addN
 // Of two with one name the first counts.
 void X3dDocument::addNames(const X3dTree& parent) {
   for (const X3dNode& child : parent) {
-    if (child.first == kAttributes || child.first == "ProtoDeclare") continue;
+    if (child.first == kX3dFields || child.first == "ProtoDeclare") continue;
     if (const auto name = x3dField(child, "DEF")) names_.emplace(*name, &child);
     addNames(child.second);
   }

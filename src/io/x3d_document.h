@@ -30,6 +30,9 @@ inline constexpr double kFarthestX3d_m = 1e6;                        ///< of pla
 X3dTree parseX3d(const std::string& text);
 std::string textOfX3d(const X3dTree& tree);
 
+/// The child of a node that has its fields.
+inline constexpr const char* kX3dFields = "<xmlattr>";
+
 /// A field as it is written, or nothing.
 std::optional<std::string> x3dField(const X3dNode& node, const std::string& name);
 std::optional<std::string> x3dField(const X3dTree& node, const std::string& name);

@@ -19,7 +19,6 @@ namespace hl {
 namespace {
 
 constexpr std::size_t kMostShown = 1'000'000;
-constexpr const char* kFields = "<xmlattr>";
 
 // Nodes with children, as those of these that assimp knows and place the same.
 const std::map<std::string_view, const char*> kGroups{{"Group", "Group"},
@@ -72,7 +71,7 @@ void makeUnitAxis(X3dTree& node, const char* field) {
 
 // The fields as assimp takes them: no commas, and axes of length 1.
 void plainFields(X3dTree& node) {
-  const auto fields = node.find(kFields);
+  const auto fields = node.find(kX3dFields);
   if (fields == node.not_found()) return;
   for (auto& [name, value] : fields->second) {
     if (isListOfNumbers(value.data())) std::replace(value.data().begin(), value.data().end(), ',', ' ');

@@ -178,6 +178,7 @@ class Expansion {
 }  // namespace
 
 std::string withoutPrototypes(const std::string& text, std::vector<std::string>& warnings) {
+  if (text.find("Proto") == std::string::npos) return text;
   X3dTree tree = parseX3d(text);
   Expansion expansion(warnings);
   expansion.collect(tree);

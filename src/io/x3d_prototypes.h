@@ -6,9 +6,10 @@
 
 namespace hl {
 
-/// The same document without prototypes. Instances of unknown ones, those of other files too, are left out with a
-/// warning. Names of the body of a prototype become names of their own in each instance. Throws hl::Error, one line,
-/// for what is no XML, and where prototypes are nested too deep or make too many nodes.
+/// The same document without prototypes; the text itself where there are none. Instances of unknown ones, those of
+/// other files too, are left out with a warning. Names of the body of a prototype become names of their own in each
+/// instance. Throws hl::Error, one line, for prototypes in what is no XML, that are nested too deep or make too many
+/// nodes.
 std::string withoutPrototypes(const std::string& text, std::vector<std::string>& warnings);
 
 }  // namespace hl

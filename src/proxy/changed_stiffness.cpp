@@ -23,15 +23,16 @@ void followStiffness(ProxyState& state, const SceneAt& scene, const ProxySetting
   const bool same = state.snapshot == scene.snapshot().number && state.stiffness_said == settings.surfaces.stiffness;
   if (same || state.held.empty()) return;
   MeanStiffness before, now;
-  for (HeldSurface& held : state.held) {
+  FixedVector<double, kMaxActive> changed;
+  for (const HeldSurface& held : state.held) {
     const std::optional<double> stiffness = stiffnessNow(held, scene, settings);
     if (!stiffness) return;
     before.add(held.multiplier_m, held.stiffness);
     now.add(held.multiplier_m, *stiffness);
-    held.stiffness = *stiffness;
+    changed.push(*stiffness);
   }
   if (before.value() == now.value()) return;
-  for (std::size_t i = 0; i < state.yielding.size(); ++i) state.yielding[i].stiffness = state.held[i].stiffness;
+  for (std::size_t i = 0; i < state.yielding.size(); ++i) state.yielding[i].stiffness = changed[i];
   if (!state.yielding.empty()) return;  // yieldToFrames() follows these
   // What the last ticks have left of the stiffness, for want of energy, stays the same part of it.
   state.stiffness = before.value() > 0 ? std::min(1.0, state.stiffness * now.value() / before.value()) : now.value();

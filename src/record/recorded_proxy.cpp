@@ -202,11 +202,16 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.carrier = values.carrier;
   state.snap = values.snap;
   state.held = heldOf(in);
-  if (in.has_stiffness_said()) state.stiffness_said = in.stiffness_said();
+  if (in.has_stiffness_said()) {
+    checkRanges(kMemory, {{"stiffness_said", in.stiffness_said(), 0, 1}});
+    state.stiffness_said = in.stiffness_said();
+  }
   state.adhering = adheringOf(in);
   state.pierced = keysOf<PiercedObjects>(in.pierced(), "the objects that let the proxy through");
   state.within = keysOf<MatterObjects>(in.within(), "the objects in whose matter the proxy is");
   readYielding(in, state);
+  if (!state.held.empty() && !state.yielding.empty() && state.held.size() != state.yielding.size())
+    throw Error("the surfaces that hold the proxy make no sense: not all of them yield");
   state.ledger = values.ledger;
   state.out_of_work = values.out_of_work;
   state.start = StartSearch(values.start);

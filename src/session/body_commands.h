@@ -7,8 +7,6 @@
 
 namespace hl {
 
-inline constexpr int kMaxCommandsPerMessage = 256;
-
 /// Without the body's key. Throws hl::Error, one line that names the value, for what cannot be done.
 BodyCommand toBodyCommand(const proto::BodyCommand& in);
 

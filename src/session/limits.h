@@ -11,6 +11,8 @@
 
 namespace hl {
 
+inline constexpr int kMaxCommandsPerMessage = 256;  ///< to bodies: a quarter of what may wait for the loops
+
 struct Limits : SceneLimits {
   // One message.
   std::uint64_t message_bytes = std::uint64_t{4} << 20;  ///< large meshes come in parts; 4 MiB decode in milliseconds

@@ -20,11 +20,7 @@ void defineTriangle(HLuint object) {
   hlBodyd(HL_BODY_RESTITUTION, 1);
   hlBodyi(HL_BODY_SHAPE, HL_BODY_PARTS);
   hlBody3d(HL_BODY_SPIN, 1, 2, 3);
-  hlBegin(HL_TRIANGLES);
-  hlVertex3d(0, 0, 0);
-  hlVertex3d(1, 0, 0);
-  hlVertex3d(0, 1, 0);
-  hlEnd();
+  triangle();
   hlEndObject();
 }
 

@@ -17,11 +17,7 @@ void callBodies() {
   for (const HLuint object : {3U, 4U}) {
     hlNewObject(object);
     hlBodyd(HL_BODY_MASS, 1);
-    hlBegin(HL_TRIANGLES);
-    hlVertex3d(0, 0, 0);
-    hlVertex3d(1, 0, 0);
-    hlVertex3d(0, 1, 0);
-    hlEnd();
+    triangle();
     hlEndObject();
     hlLoadName(10 * object);
     hlCallObject(object);

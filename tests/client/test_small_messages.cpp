@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "client/fake_server.h"
+#include "session/limits.h"
 
 namespace hl::client::test_small_messages {
 namespace {
@@ -12,7 +13,7 @@ std::vector<proto::BodyCommand> commandsIn(const std::vector<proto::ClientMessag
   std::vector<proto::BodyCommand> all;
   for (const proto::ClientMessage& message : messages) {
     if (message.has_body_command()) all.push_back(message.body_command());
-    EXPECT_LE(message.body_commands().commands_size(), kCommandsPerMessage);
+    EXPECT_LE(message.body_commands().commands_size(), kMaxCommandsPerMessage);
     for (const proto::BodyCommand& command : message.body_commands().commands()) all.push_back(command);
   }
   return all;
@@ -21,11 +22,7 @@ std::vector<proto::BodyCommand> commandsIn(const std::vector<proto::ClientMessag
 void defineBody(HLuint object) {
   hlNewObject(object);
   hlBodyd(HL_BODY_MASS, 0.1);
-  hlBegin(HL_TRIANGLES);
-  hlVertex3d(0, 0, 0);
-  hlVertex3d(1, 0, 0);
-  hlVertex3d(0, 1, 0);
-  hlEnd();
+  triangle();
   hlEndObject();
 }
 
