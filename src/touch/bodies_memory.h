@@ -6,21 +6,17 @@
 #include <vector>
 
 #include "base/fixed_vector.h"
-#include "bodies/hand_node.h"
 #include "bodies/world.h"
-#include "proxy/field_forces.h"
 #include "touch/body_command.h"
+#include "touch/hand_account.h"
 
 namespace hl {
-
-/// What the fields of bodies take from them.
-using DrawnImpulses = FixedVector<BodyImpulse, kMaxFieldsAtOnce>;
 
 /// Of one scene, between two ticks. Its lists have the room that reserve() made.
 struct BodiesMemory {
   WorldState world;
   std::vector<Pose> poses;                            ///< of World::bodies, as the last tick saw them
-  FixedVector<BodyImpulse, kContactsOfHand> owed;     ///< to bodies
+  OwedImpulses owed;                                  ///< to bodies
   DrawnImpulses drawn;                                ///< the same, by fields
   FixedVector<HandContact, kContactsOfHand> held_by;  ///< what held the proxy
   BodyPushes pushes;                                  ///< of clients, that are given over time

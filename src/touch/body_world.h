@@ -3,15 +3,7 @@
 //   step the bodies, the proxies of all hands nodes among them -> each hand: carry -> tick -> settle
 //
 // so that a body has answered the very sample for which the tick is made. What the tick's force gives the hand beyond
-// what the bodies got is owed to them, and paid in the next step: action is reaction to rounding.
-// Each hand has an account:
-//
-//   owed    impulses that past forces gave the hand, and no body yet
-//   given   what the last step gave the bodies: first the part of `owed` that was paid before the solve, then what the
-//           solve added
-//   drawn   impulses of fields, always paid as a whole in the next step
-//
-// and settle() adds to `owed` the force of the tick times its period, less what the solve has given.
+// what the bodies got is owed to them, and paid in the next step (hand_account.h): action is reaction to rounding.
 #pragma once
 
 #include <array>
@@ -19,15 +11,17 @@
 #include <span>
 #include <vector>
 
-#include "base/function_ref.h"
 #include "bodies/body_step.h"
 #include "proxy/field_forces.h"
 #include "proxy/object_forces.h"
 #include "scene/rigid_body.h"
 #include "touch/bodies_memory.h"
+#include "touch/body_acts.h"
 #include "touch/body_command.h"
 #include "touch/body_view.h"
+#include "touch/hand_account.h"
 #include "touch/joint_views.h"
+#include "touch/lost_bodies.h"
 
 namespace hl {
 
@@ -82,52 +76,31 @@ class BodyWorld {
  private:
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies,
             JointViews joint_views);
-  /// Between a hand and the bodies.
-  struct Account {
-    FixedVector<BodyImpulse, kContactsOfHand> owed;
-    DrawnImpulses drawn;
-    GivenImpulses given;   // in the last step
-    std::size_t paid = 0;  // the first of them: what was owed
-  };
-  void forgetOwed(Account& account, const BodyWorld& before) const;
-  void owe(Account& account, const BodyImpulse& change);
-  void giveByHand(const BodyImpulse& one);
   void continueJoints(const BodyWorld& before);
   bool goesOn(std::uint64_t key, const BodyWorld& before) const;
   bool standsAs(const BodyWorld& before) const;
-  ShownBody shownOf(std::size_t i) const;
-  double energyOf_J(std::size_t i) const;
+  MovingBodies moving() { return {world(), state_, bodies_}; }
   double energy_J() const;
-  void act(const BodyCommand& command);
-  void place(std::size_t i, const BodyCommand& command);
-  void give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point);
-  void push(double period_s);
   void showMobility();
   void stepAmong(std::span<const HandAtBodies> hands, double period_s, const StepTimes& times);
   void payDrawn();
-  void returnBroken();
   void returnLost(const EnergyBook& before);
   void forgetStep(const EnergyBook& before);
-  bool findLost(FunctionRef<bool(std::size_t body)> is_lost);
   void putBackLost();
-  void loseJoined();
-  void putBack(std::size_t i);
   void count(double late_s);
 
   std::vector<std::shared_ptr<const RigidBody>> bodies_;
   BodyStepper stepper_;
   WorldState state_;
   JointViews joint_views_;
-  std::array<Account, kMaxHands> accounts_;  // by the hand's number
+  std::array<HandAccount, kMaxHands> accounts_;  // by the hand's number
   BodyPushes pushes_;
   BodyStepReport report_;
   std::int64_t time_ns_ = 0;
   bool begun_ = false;
   bool mobility_shown_ = false;
   BodyView view_;
-  std::vector<BodyState> starts_;         // of the bodies
-  std::vector<JointState> joint_starts_;  // as World::joints
-  std::vector<std::uint8_t> lost_;        // of each body: whether it is to be put back
+  LostBodies lost_;
 };
 
 }  // namespace hl
