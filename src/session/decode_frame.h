@@ -4,23 +4,16 @@
 #include <hl.pb.h>
 
 #include <functional>
-#include <list>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/editable_scene.h"
+#include "session/frame_objects.h"
+#include "session/frame_shapes.h"
 #include "session/message_size.h"
 
 namespace hl {
-
-/// What a client has sent ahead of a frame, by the ids it chose, in the parts that it came in.
-using Uploads = std::map<std::uint64_t, std::list<proto::Primitives>>;
-
-/// The items that an object has so far, null where there is none; object 0 is the world. A shape that comes in the
-/// place of another follows on it: see makeShape.
-using ItemsBefore = std::function<const SceneItems*(std::uint32_t object)>;
 
 struct DecodedFrame {
   SceneEdit edit;
