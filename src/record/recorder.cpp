@@ -113,14 +113,17 @@ void Recorder::drain(bool all) {
   } catch (const Error& error) {
     file_.reset();
     written_.page = 0;
-    for_pages ? settings_.pages->refuse(error.what()) : report(fmt::format("the recording ends: {}", error.what()));
+    for_pages ? settings_.pages->refuse(error.what()) : lose(fmt::format("the recording ends: {}", error.what()));
   }
   if (!file_) forgetOldScenes();
   hashing_.store(file_ || capture_.wanted_ns != 0, std::memory_order_relaxed);
 }
 
 void Recorder::writeFile(bool all) {
-  if (scenes_.hasLost()) return endRecording("there was no memory to keep a scene for it");
+  if (scenes_.hasLost()) {
+    if (settings_.lost && written_.page == 0) settings_.lost();
+    return endRecording("there was no memory to keep a scene for it");
+  }
   writeTicks(all);
   writeSteps(all);
   scene_writer_.writePoses(monotonicNow_ns(), [this](const proto::RecordingBlock& block) { file_->write(block); });
@@ -269,6 +272,11 @@ proto::RecordingBlock Recorder::startBlock(FaultReason reason) const {
   start.set_servo_rate_hz(session_.servo_rate_Hz);
   start.set_proxy_rate_hz(session_.proxy_rate_Hz);
   return block;
+}
+
+void Recorder::lose(const std::string& line) const {
+  report(line);
+  if (settings_.lost) settings_.lost();
 }
 
 void Recorder::report(const std::string& line) const {

@@ -75,6 +75,7 @@ class Recorder final : public StepSink {
   void forgetOldScenes();
   proto::RecordingBlock startBlock(FaultReason reason) const;
   void report(const std::string& line) const;
+  void lose(const std::string& line) const;
 
   const RecorderSettings settings_;
   const SessionInfo session_;

@@ -21,6 +21,8 @@ struct RecorderSettings {
   std::string version;                       ///< of HL, for the files
   /// Gets the name of the device and a line when a file is written or can not be; or empty.
   std::function<void(const std::string& device, const std::string& line)> report;
+  /// Called when a recording of the session ends before it, and not by most_bytes: the disk is full; or empty.
+  std::function<void()> lost;
 };
 
 /// The file of one device of several: session.hlr becomes session-left.hlr.

@@ -3,6 +3,7 @@
 #include "record/recorder.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -575,6 +576,44 @@ TEST_F(Recording, ItEndsAtItsSizeAndTheSessionGoesOn) {
   EXPECT_FALSE(report.difference);
   EXPECT_EQ(report.end, "200000 bytes are reached");
   EXPECT_LT(std::filesystem::file_size(path), 1'500'000u);
+}
+
+// Files of this process may not grow beyond this, as on a disk that gets full.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
+
+TEST_F(Recording, OfADiskThatGetsFullIsLostAndTheSessionGoesOn) {
+  RecorderSettings full = settings();
+  std::string reported;
+  std::atomic<bool> lost{false};
+  full.report = [&](const std::string&, const std::string& line) { reported = line; };
+  full.lost = [&] { lost = true; };
+  {
+    const FullDisk disk(1'500'000);
+    Loops loops(full);
+    while (!lost) loops.run(100);
+    loops.run(1000);
+  }
+  EXPECT_NE(reported.find("the recording ends: "), std::string::npos) << reported;
+  const ReplayReport report = replay(path);
+  EXPECT_FALSE(report.difference);
+  EXPECT_GT(report.steps, 100u);
 }
 
 // The whole of what the recorder's thread had written is readable, to the last block, by others too while it goes on.
