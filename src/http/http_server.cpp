@@ -11,6 +11,7 @@
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -56,6 +57,26 @@ ListenerSettings listenerSettings(const HttpServerSettings& settings) {
   }
   if (!settings.tls.empty()) out.tls = makeServerTls(settings.tls);
   return out;
+}
+
+struct Refusal {
+  http::status status;
+  RefusedBecause because;
+  const char* text;
+};
+
+constexpr Refusal kTooLargeRequest{http::status::payload_too_large, RefusedBecause::kTooLarge,
+                                   "a request here has at most 16 kB; files go to /upload"};
+
+// Of what was no request; nothing for a connection that has ended, also within one.
+std::optional<Refusal> refusalOf(const beast::error_code& error) {
+  if (error == http::error::header_limit)
+    return Refusal{http::status::request_header_fields_too_large, RefusedBecause::kTooLarge,
+                   "the head of a request has at most 16 kB"};
+  if (error == http::error::body_limit) return kTooLargeRequest;
+  const bool ended = error == http::error::end_of_stream || error == http::error::partial_message;
+  if (ended || error.category() != make_error_code(http::error::bad_version).category()) return std::nullopt;
+  return Refusal{http::status::bad_request, RefusedBecause::kMalformed, "this is no HTTP request"};
 }
 
 AccessSettings accessSettings(const HttpServerSettings& settings, std::uint16_t port) {
@@ -130,17 +151,18 @@ class HttpServer::Impl {
       head.body_limit(boost::none);  // files have a limit of their own
       connection->stream.tcp().expires_after(kRequestTimeout);
       auto [no_head, head_bytes] = co_await http::async_read_header(connection->stream, buffer, head, kAwait);
-      if (no_head) co_return;
+      if (no_head) co_return co_await refuse(connection, refusalOf(no_head));
       if (isUpload(viewOf(head.get().target()))) {
         const bool goes_on = co_await uploads_.serve(connection, buffer, head);
         if (!goes_on) co_return;
         continue;
       }
-      if (head.content_length().value_or(0) > kMaxRequest_bytes) co_return;
+      if (head.content_length().value_or(0) > kMaxRequest_bytes)
+        co_return co_await refuse(connection, kTooLargeRequest);
       http::request_parser<http::string_body> parser(std::move(head));
       parser.body_limit(kMaxRequest_bytes);
       auto [error, bytes] = co_await http::async_read(connection->stream, buffer, parser, kAwait);
-      if (error) co_return;
+      if (error) co_return co_await refuse(connection, refusalOf(error));
       HttpRequest request = parser.release();
       if (websocket::is_upgrade(request) && answers_.mayConnect(request)) {
         const bool upgraded = co_await upgrade(connection, request);
@@ -155,6 +177,18 @@ class HttpServer::Impl {
       auto [failed, sent] = co_await http::async_write(connection->stream, response, kAwait);
       if (failed || !response.keep_alive()) co_return;
     }
+  }
+
+  // What cannot be a request is answered once, and the connection ends: where the next one begins is not known.
+  asio::awaitable<void> refuse(ConnectionPointer connection, std::optional<Refusal> refusal) {
+    if (!refusal) co_return;
+    traffic_.refuse(refusal->because);
+    logEvent(LogLevel::kWarning, "refused", {{"peer", connection->peer}, {"reason", refusal->text}});
+    HttpRequest none;
+    none.version(11);
+    none.keep_alive(false);
+    const HttpResponse response = HttpAnswers::refuse(none, refusal->status, refusal->text);
+    co_await http::async_write(connection->stream, response, kAwait);
   }
 
   // Serves the WebSocket that is asked for, if it is one of ours and there is room; false: it has not been accepted.

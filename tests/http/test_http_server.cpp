@@ -156,6 +156,32 @@ TEST_F(HttpServerTest, GarbageAndHalfOpenConnectionsDoNotStopIt) {
   EXPECT_EQ(statusOf("/", host()), 200u);
 }
 
+// The whole answer to these bytes, after which the server has closed the connection.
+std::string answerTo(tcp::socket socket, const std::string& bytes) {
+  boost::system::error_code error;
+  asio::write(socket, asio::buffer(bytes), error);
+  std::string answer;
+  asio::read(socket, asio::dynamic_buffer(answer), error);
+  return answer;
+}
+
+TEST_F(HttpServerTest, WhatIsNoRequestIsAnsweredAndCounted) {
+  const std::string large(20'000, 'x');
+  const std::pair<std::string, std::string> cases[] = {
+      {"hello\r\n\r\n", "400 "},
+      {"GET / HTTP/9.9\r\n\r\n", "400 "},
+      {"GET / HTTP/1.1\r\nno colon\r\n\r\n", "400 "},
+      {"GET / HTTP/1.1\r\nContent-Length: -1\r\n\r\n", "400 "},
+      {"GET / HTTP/1.1\r\nX: " + large + "\r\n\r\n", "431 "},
+      {"GET / HTTP/1.1\r\nContent-Length: 20000\r\n\r\n" + large, "413 "}};
+  for (const auto& [bytes, code] : cases)
+    EXPECT_TRUE(answerTo(connect(), bytes).starts_with("HTTP/1.1 " + code)) << bytes.substr(0, 60);
+  const std::string metrics =
+      answerTo(connect(), "GET /metrics HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n\r\n");
+  EXPECT_NE(metrics.find("hl_refused_total{reason=\"malformed\"} 4"), std::string::npos) << metrics;
+  EXPECT_NE(metrics.find("hl_refused_total{reason=\"too_large\"} 2"), std::string::npos) << metrics;
+}
+
 TEST_F(HttpServerTest, APortInUseIsAClearError) {
   try {
     HttpServer second({server_.port(), "", 60}, {});
