@@ -147,7 +147,7 @@ class FakeHost : public SessionHost {
   void endAll(const std::string& why) {
     const std::scoped_lock lock(mutex_, record_->mutex);
     record_->end_all = why;
-    wake_newest_();
+    if (wake_newest_) wake_newest_();
   }
 
   /// While `on`, a session that receives a Frame with objects stays in receive(), as if it had much to decode.

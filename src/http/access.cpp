@@ -72,8 +72,9 @@ bool Access::allowsToken(std::string_view token) const {
 }
 
 bool Access::allowsBearer(std::string_view authorization) const {
-  constexpr std::string_view kScheme = "Bearer ";
-  if (!authorization.starts_with(kScheme)) return !wantsToken();
+  constexpr std::string_view kScheme = "bearer ";
+  const bool is_bearer = lowered(authorization.substr(0, kScheme.size())) == kScheme;  // RFC 9110, 11.1
+  if (!is_bearer) return !wantsToken();
   return allowsToken(trimmed(authorization.substr(kScheme.size()), kBlank));
 }
 

@@ -68,6 +68,12 @@ struct Refusal {
 constexpr Refusal kTooLargeRequest{http::status::payload_too_large, RefusedBecause::kTooLarge,
                                    "a request here has at most 16 kB; files go to /upload"};
 
+// For the log: one line.
+std::string reasonOf(const HttpResponse& refusal) {
+  const std::string& text = refusal.body();
+  return text.substr(0, text.find('\n'));
+}
+
 // Of what was no request; nothing for a connection that has ended, also within one.
 std::optional<Refusal> refusalOf(const beast::error_code& error) {
   if (error == http::error::header_limit)
@@ -233,6 +239,9 @@ class HttpServer::Impl {
       traffic_.refuse(RefusedBecause::kFull);
       co_return HttpAnswers::refuse(request, http::status::service_unavailable, "too many pages; close one");
     }
+    const bool of_sockets = request.target() == "/viewer" || (request.target() == "/hl" && host_ != nullptr);
+    if (of_sockets && !websocket::is_upgrade(request) && answers_.mayConnect(request))
+      co_return HttpAnswers::refuse(request, http::status::upgrade_required, "this address is for WebSockets");
     const ServerCounts counts{traffic_, listener_.connections(), pages_.pages(), listener_.refused()};
     HttpResponse response = co_await doOn(page_worker_, [&] { return answers_.answer(request, counts); });
     const bool denied = response.result() == http::status::forbidden || response.result() == http::status::unauthorized;
@@ -243,7 +252,7 @@ class HttpServer::Impl {
   void logDenied(const std::string& peer, const HttpRequest& request, const HttpResponse& response) {
     traffic_.refuse(RefusedBecause::kAccess);
     const std::string host(request[http::field::host]);
-    logEvent(LogLevel::kWarning, "refused", {{"peer", peer}, {"host", host}, {"reason", response.body()}});
+    logEvent(LogLevel::kWarning, "refused", {{"peer", peer}, {"host", host}, {"reason", reasonOf(response)}});
   }
 
   std::string fault() const { return monitor_.fault ? monitor_.fault() : std::string(); }

@@ -145,6 +145,14 @@ void WebSocketSession::refuse(close_code code, RefusedBecause because, std::stri
   end({code, std::move(text), true, because});
 }
 
+// Nothing can be sent any more; the log and the counts tell a client that hangs from one that has closed.
+void WebSocketSession::noteSilence() {
+  if (ending_) return;
+  ending_ = Ending{close_code::policy_error, "the client answers no ping", false, RefusedBecause::kSilent};
+  world_.traffic.refuse(ending_->because);
+  logEvent(LogLevel::kWarning, "refused", {{"peer", connection_->peer}, {"reason", ending_->text}});
+}
+
 void WebSocketSession::expectOpen() {
   open_deadline_.expires_after(durationOf(world_.limits.handshake_s));
   open_deadline_.async_wait([weak = weak_from_this()](boost::system::error_code cancelled) {
@@ -188,8 +196,10 @@ asio::awaitable<void> WebSocketSession::readMessages() {
   }
 }
 
+MessageForm WebSocketSession::formOfMessage() { return stream_.gotText() ? MessageForm::kJson : MessageForm::kBinary; }
+
 asio::awaitable<void> WebSocketSession::takeIn(const Incoming& incoming) {
-  const MessageForm form = stream_.gotText() ? MessageForm::kJson : MessageForm::kBinary;
+  const MessageForm form = formOfMessage();
   if (!opened_) form_ = form;
   const auto data = incoming.buffer.cdata();
   const std::string_view bytes(static_cast<const char*>(data.data()), data.size());
@@ -221,6 +231,7 @@ asio::awaitable<bool> WebSocketSession::readMessage(Incoming& incoming) {
     auto [error, bytes] = co_await stream_.readSome(buffer, kPiece_bytes);
     if (error) {
       if (error == websocket::condition::protocol_violation) world_.traffic.refuse(RefusedBecause::kMalformed);
+      if (error == beast::error::timeout) noteSilence();
       gone_ = true;
       waker_->wake();
       co_return false;
@@ -228,6 +239,7 @@ asio::awaitable<bool> WebSocketSession::readMessage(Incoming& incoming) {
     world_.traffic.bytes_in += bytes;
     size += bytes;
     if (size > most) {
+      if (!opened_) form_ = formOfMessage();
       refuse(close_code::too_big, RefusedBecause::kTooLarge,
              "a message of more than " + std::to_string(most) + " bytes; " +
                  (opened_ ? "send large meshes as uploads in parts" : "send Open first"));
@@ -293,6 +305,8 @@ std::optional<WebSocketSession::Ending> WebSocketSession::open(MessageForm form,
             {"client", message.open().client_name()},
             {"form", form == MessageForm::kJson ? "json" : "binary"}});
   session_->receive(std::move(message));
+  if (const std::string why = session_->end(); !why.empty())  // another version, or no such device
+    return Ending{close_code::policy_error, why, true, RefusedBecause::kMalformed};
   return {};
 }
 

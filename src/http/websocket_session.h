@@ -84,6 +84,8 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   bool setUp();
   void end(Ending ending);
   void refuse(boost::beast::websocket::close_code code, RefusedBecause because, std::string text);
+  void noteSilence();
+  MessageForm formOfMessage();
   void expectOpen();
   class Turn;
   template <typename Work>

@@ -10,6 +10,7 @@ void toProto(const TouchSession& session, proto::DeviceInfo& out) {
   out.set_force_max_n(info.force_max_N);
   out.set_stiffness_n_m(session.stiffness_N_m());
   out.set_stiffness_max_n_m(info.stiffness_max_N_m);
+  out.set_force_rate_max_n_s(info.force_rate_max_N_s);
   out.set_simulated_hand(session.hasHand());
   out.set_has_wrist(info.has_wrist);
   out.set_gripper_max_rad(info.gripper_max_rad);

@@ -56,6 +56,7 @@ TEST(Access, OnlyTheTokenItselfIsTheToken) {
   EXPECT_TRUE(access.wantsToken());
   EXPECT_TRUE(access.allowsToken(kToken));
   EXPECT_TRUE(access.allowsBearer(std::string("Bearer ") + kToken));
+  EXPECT_TRUE(access.allowsBearer(std::string("bearer  ") + kToken));
   for (const char* wrong : {"", "correct-horse-batter", "correct-horse-battery-", "Correct-horse-battery"}) {
     EXPECT_FALSE(access.allowsToken(wrong)) << wrong;
     EXPECT_FALSE(access.allowsBearer(std::string("Bearer ") + wrong)) << wrong;

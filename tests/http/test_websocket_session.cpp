@@ -380,6 +380,30 @@ TEST(WebSocketSession, OnlyProgramsAndTheOwnPageMayConnect) {
                boost::system::system_error);
 }
 
+TEST(WebSocketSession, AnAddressOfSocketsSaysSoToOtherRequests) {
+  Served served;
+  EXPECT_EQ(test::request(served.port(), "/hl").result_int(), 426u);
+}
+
+TEST(WebSocketSession, AnOpenThatTheSessionRefusesIsAnsweredAsOne) {
+  Served served;
+  served.host.endAll("there is no device 3");
+  PlainClient client(served.port());
+  client.send(openMessage());
+  EXPECT_EQ(client.readToEnd(), "there is no device 3");
+  EXPECT_EQ(client.closeReason(), "there is no device 3");
+}
+
+TEST(WebSocketSession, AnOpenTooLargeIsRefusedInItsOwnForm) {
+  Served served;
+  PlainClient client(served.port());
+  proto::ClientMessage message = openMessage();
+  message.mutable_open()->set_client_name(std::string(Limits{}.open_bytes, 'x'));
+  client.sendJson(message);
+  EXPECT_FALSE(client.readToEnd().empty());
+  EXPECT_TRUE(client.gotText());
+}
+
 TEST(WebSocketSession, WithoutASessionHostThereIsNoSuchPlace) {
   HttpServer server(Served::adjusted({}), test::fakePages());
   server.start();
