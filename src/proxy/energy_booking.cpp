@@ -11,7 +11,7 @@ namespace {
 
 void bookCauses(Ledger& ledger, const EnergyBooking::Causes& causes, double moved_J, double stiffened_J) {
   if (moved_J > 0 && causes.shading + causes.bump == 0) {
-    ledger.add(EnergyCause::kStiffness, moved_J);  // pre-sliding springs that move the proxy back
+    ledger.add(EnergyCause::kStiffness, moved_J);  // rounding
   } else if (moved_J > 0) {
     const double bends = causes.shading + causes.bump;
     const double bump = causes.bump / bends;
@@ -30,6 +30,7 @@ EnergyBooking::EnergyBooking(const ProxyState& state, const ProxySettings& setti
       was_touching_(state.touching),
       stiffness_before_(state.stiffness),
       proxy_before_(state.position),
+      presliding_before_J_(state.presliding.energy_J(settings.world_per_device)),
       budget_J_(state.ledger.budget_J(settings.ledger)) {}
 
 double EnergyBooking::energy_J(double stiffness, double distance_squared) const {
@@ -47,7 +48,7 @@ double EnergyBooking::moved_J(const Vec3& proxy, double stiffness) const {
 // Along the step |proxy - finger|^2 falls up to the nearest point and rises beyond it. The rise is paid for in full. If
 // the fall before it were credited, the proxy could jump to its mirror image beyond the finger, and back in the next
 // tick.
-double EnergyBooking::affordable(const Vec3& proxy, const Vec3& step) const {
+double EnergyBooking::affordable(const Vec3& proxy, const Vec3& step, double released_J) const {
   const double joule_per_square = energy_J(was_touching_ ? stiffness_before_ : 1, 1);
   if (!(joule_per_square > 0) || !std::isfinite(budget_J_)) return 1;
   const Vec3 e = proxy - finger_;
@@ -56,14 +57,14 @@ double EnergyBooking::affordable(const Vec3& proxy, const Vec3& step) const {
   const double nearest = std::clamp(-step.dot(e) / a, 0.0, 1.0);
   const Vec3 at_nearest = e + nearest * step;
   const double spent = moved_J(proxy + nearest * step, 1) / energy_J(1, 1);
-  const double budget = budget_J_ / joule_per_square;
+  const double budget = (budget_J_ + released_J) / joule_per_square;
   // Earlier steps of the tick may have spent some of it.
   const double left = std::min(budget, budget - spent);
   return std::min(1.0, nearest + partWithin(at_nearest, step, std::max(0.0, left)));
 }
 
-Vec3 EnergyBooking::afford(const Vec3& proxy, const Vec3& step) {
-  const double part = affordable(proxy, step);
+Vec3 EnergyBooking::afford(const Vec3& proxy, const Vec3& step, double released_J) {
+  const double part = affordable(proxy, step, released_J);
   spent_ = part < 1;
   return part * step;
 }
@@ -82,7 +83,12 @@ void EnergyBooking::close(ProxyState& state, TickEnd end, const MeanStiffness& s
   double stiffness = wantedStiffness(end, surfaces);
   const double before = was_touching_ ? stiffness_before_ : stiffness;
   const double per_stiffness_J = energy_J(1, distance_squared);
-  const double move_J = moved_J(state.position, before);
+  if (end != TickEnd::kContact) {
+    state.rest_s = accuracy::kStuck_s;
+    state.presliding = {};
+  }
+  const double presliding_J = state.presliding.energy_J(settings_.world_per_device);
+  const double move_J = moved_J(state.position, before) + presliding_J - presliding_before_J_;
   const double most_J = end == TickEnd::kOnItsWay ? 0 : budget_J_;
   if (move_J + (stiffness - before) * per_stiffness_J > most_J)
     stiffness = std::max(0.0, before + (most_J - move_J) / per_stiffness_J);
@@ -92,10 +98,6 @@ void EnergyBooking::close(ProxyState& state, TickEnd end, const MeanStiffness& s
   bookCauses(state.ledger, causes, move_J, stiffened_J);
   state.ledger.book(report.injected_J, was_touching_ && touching);
   state.touching = touching;
-  if (end != TickEnd::kContact) {
-    state.rest_s = accuracy::kStuck_s;
-    state.presliding_m = Vec3::Zero();
-  }
   state.stiffness = touching ? stiffness : 1;
 }
 

@@ -1,7 +1,9 @@
 // EnergyBooking: books the energy of one tick in the ledger and limits it, and computes the target from this.
 //
 //   before   E0 = 1/2 K s- |proxy- - finger|^2         after   E = 1/2 K s+ |proxy+ - finger|^2
-// Both use the same finger position, so E - E0 is the change by the tick's rules, not by the hand. Without contact, and
+//
+// each with the energy of the pre-sliding springs (presliding.h). Both use the same finger position, so E - E0 is the
+// change by the tick's rules, not by the hand. Without contact, and
 // in the tick that makes contact, s- is s+: making contact changes no energy. A tick that ends on its way, between the
 // surface that it left and the finger, keeps the stiffness of that surface and adds no energy. If it has met no
 // surface, there is no force.
@@ -28,8 +30,8 @@ class EnergyBooking {
   EnergyBooking(const ProxyState& state, const ProxySettings& settings, const Vec3& finger);
 
   /// The part of `step` that the tick's energy budget allows: up to the point nearest the finger, and beyond it as far
-  /// as the budget allows. RT-safe.
-  Vec3 afford(const Vec3& proxy, const Vec3& step);
+  /// as the budget allows. `released_J`: what the step takes out of the pre-sliding springs. RT-safe.
+  Vec3 afford(const Vec3& proxy, const Vec3& step, double released_J = 0);
   /// Whether the energy budget is used up: the last step was shortened.
   bool spent() const { return spent_; }
 
@@ -44,7 +46,7 @@ class EnergyBooking {
              TickReport& report) const;
 
  private:
-  double affordable(const Vec3& proxy, const Vec3& step) const;
+  double affordable(const Vec3& proxy, const Vec3& step, double released_J) const;
   double energy_J(double stiffness, double distance_squared) const;
   double moved_J(const Vec3& proxy, double stiffness) const;
   double wantedStiffness(TickEnd end, const MeanStiffness& surfaces) const;
@@ -54,6 +56,7 @@ class EnergyBooking {
   const bool was_touching_;
   const double stiffness_before_;
   const Vec3 proxy_before_;
+  const double presliding_before_J_;
   const double budget_J_;
   bool spent_ = false;
 };

@@ -7,6 +7,7 @@
 #include "base/fixed_vector.h"
 #include "base/vec.h"
 #include "proxy/contacts.h"
+#include "proxy/presliding.h"
 #include "proxy/solver.h"
 #include "proxy/surface.h"
 
@@ -43,7 +44,7 @@ struct Proposal {
   enum class Resistance : std::uint8_t {
     kNone,
     kActs,       ///< the proxy slips less than it is pulled, or sticks
-    kPreslides,  ///< static friction holds it, on its pre-sliding springs
+    kPreslides,  ///< friction holds it, on its pre-sliding springs
   };
 
   Rule rule = Rule::kPlain;
@@ -54,13 +55,13 @@ struct Proposal {
   FixedVector<ActiveContact, kMaxActive> active;
   double shading = 0, bump = 0;  ///< the largest turns of the active shading normals, as in ShadingNormal
   double viscous = 0;            ///< pull used up by viscosity per metre of the step
-  double presliding_ratio = 0;   ///< SlipResistance::presliding_ratio
-  Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
+  PreslidingSprings springs;     ///< before the step, on the contacts of now
+  Vec3 held = Vec3::Zero();      ///< m, the pull that friction and viscosity hold after the step
 
   bool preslides() const { return resistance == Resistance::kPreslides; }
-  /// Whether the step never raises the spring's energy, if the goal is the finger. Other steps are paid for
-  /// (energy_booking.h).
-  bool descends() const { return !may_raise_energy && !preslides(); }
+  /// Whether the step never raises the energy of the spring and of the pre-sliding springs together, if the goal is the
+  /// finger. Other steps are paid for (energy_booking.h).
+  bool descends() const { return !may_raise_energy; }
 };
 
 }  // namespace hl

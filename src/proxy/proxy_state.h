@@ -10,6 +10,7 @@
 #include "base/ledger.h"
 #include "base/vec.h"
 #include "proxy/compliance_estimate.h"
+#include "proxy/presliding.h"
 #include "proxy/proxy_cache.h"
 #include "proxy/solver.h"
 #include "proxy/start_search.h"
@@ -92,7 +93,7 @@ struct ProxyState {
   bool free = false;                   ///< false until a position clear of the scene has been found near the finger
   bool touching = false;               ///< the last tick ended in contact, between two contacts, or held by a snap
   double rest_s = accuracy::kStuck_s;  ///< time since the last slip; from kStuck_s on it is stuck
-  Vec3 presliding_m = Vec3::Zero();    ///< m, pre-sliding offset from where the proxy stuck
+  PreslidingSprings presliding{};      ///< on which friction holds the proxy
   double stiffness = 1;                ///< stiffness s of the last tick's target; 1 without contact
   std::int64_t time_ns = 0;            ///< scene time of the last tick
   std::uint64_t snapshot = 0;          ///< number of the snapshot of the last tick; 0: none yet

@@ -112,32 +112,42 @@ Vec3 SurfaceRules::slip(FrictionOnWay& resistance, const SlipResistance& drag, c
   return std::min(length / pull, resistance.within() + accuracy::kOverEdge * tolerance_.reach / pull) * way;
 }
 
-// The part of `way` that friction allows, after a slip of slip_.length + `slipped_now`.
+// The part of `way` that friction allows, after a slip of slip_.length in this tick and the `offset` of earlier passes.
 //
-// With pre-sliding springs a stuck proxy moves by D to where the springs balance the remaining pull,
-//   |way - D| = presliding_ratio |presliding_m + D|,
-// and moves back when the pull falls. This is the elastic state z of the models by Dahl and by Hayward and Armstrong,
-// without their drift. The springs are attached where the proxy stuck. So on a curved surface D may point into the
-// surface that the proxy now touches.
-Vec3 SurfaceRules::resistedStep(FrictionOnWay resistance, const Vec3& way, double slipped_now,
+// With pre-sliding springs the proxy moves by D to where they balance the remaining pull,
+//   |way - D| = presliding_ratio |stretch + D|,
+// as long as friction carries that: static friction of a proxy that is stuck, else that of the speed at which it would
+// slip. The balance is a mean of the pull and of the springs' pull before the step, so that what is not carried slips.
+// The springs are attached where the proxy stuck. So on a curved surface D may point into the surface that the
+// proxy now touches.
+Vec3 SurfaceRules::resistedStep(FrictionOnWay resistance, const Vec3& way, const Vec3& offset,
                                 Proposal& proposal) const {
   using Resistance = Proposal::Resistance;
-  proposal.viscous = proposal.presliding_ratio = 0;
+  const bool holds = proposal.preslides() || offset.isZero(0);  // so far
+  proposal.viscous = 0;
+  proposal.springs = {};
   const SlipResistance drag = resistance.here();
   const bool acts = resistance.slipTextured() || drag.viscous > 0 || drag.staticPull() > 0;
   proposal.resistance = acts ? Resistance::kActs : Resistance::kNone;
   if (!acts) return way;
-  proposal.presliding_ratio = drag.presliding_ratio;
-  const Slip before{slip_.length + slipped_now, slip_.viscous_m + drag.viscous * slipped_now};
-  const bool stuck = !slipping_ && slipped_now == 0;
-  Vec3 offset = drag.presliding_ratio > 0
-                    ? Vec3((way - drag.presliding_ratio * presliding_m_) / (1 + drag.presliding_ratio))
-                    : Vec3(Vec3::Zero());
-  if (stuck && (way - offset).norm() <= drag.staticPull() + before.viscous_m) {
-    if (drag.presliding_ratio > 0) proposal.resistance = Resistance::kPreslides;
-    return offset;
+  const double ratio = drag.presliding_ratio;
+  proposal.springs = springs_.on(ratio * felt_N_m_);
+  const double slipped = slip_.length + (holds ? 0 : offset.norm());
+  const Slip before{slipped, slip_.viscous_m + drag.viscous * (slipped - slip_.length)};
+  const bool stuck = holds && !slipping_;
+  if (!stuck && !(holds && ratio > 0)) return slip(resistance, drag, way, before, proposal);
+  const Vec3 slid = stuck ? Vec3(Vec3::Zero()) : slip(resistance, drag, way, before, proposal);
+  const double carried = stuck ? drag.staticPull() : drag.coulombPull(slipped + slid.norm());
+  Vec3 crept = Vec3::Zero();
+  if (ratio > 0) {
+    const Vec3 stretch = limited(proposal.springs.stretch_m + offset, carried / ratio);  // of a lesser normal force
+    proposal.springs.stretch_m = stretch - offset;
+    crept = (way - ratio * stretch) / (1 + ratio);
   }
-  return slip(resistance, drag, way, before, proposal);
+  if ((way - crept).norm() > carried + before.viscous_m)
+    return stuck ? slip(resistance, drag, way, before, proposal) : slid;
+  if (ratio > 0) proposal.resistance = Resistance::kPreslides;
+  return crept;
 }
 
 // That of the contact whose normal is nearest; 0 for a surface without adhesion.
@@ -199,7 +209,7 @@ bool SurfaceRules::staysOnFaces(const ContactSet& set, const TouchedSet& touched
 Vec3 SurfaceRules::toStep(const ContactSet& set, const Vec3& goal, const SolverResult& held,
                           const Proposal& proposal) const {
   if (proposal.may_raise_energy && held.active_count > 0) return secondPass(set, goal);
-  return proposal.descends() ? goal : aboveTruePlanes(set, goal);
+  return proposal.descends() && !proposal.preslides() ? goal : aboveTruePlanes(set, goal);
 }
 
 // The passes are repeated here with the same contacts, which needs no search. Each pass leaves a fraction sin^2(beta) +
@@ -220,7 +230,7 @@ void SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec
     proposal.may_raise_energy =
         proposal.may_raise_energy || any([](const Touched& now) { return now.shading_normal.differs(); });
     const Vec3 way = held.point - offset;
-    const Vec3 resisted = resisting ? resistedStep(frictionOf(set, touched, held), way, offset.norm(), proposal) : way;
+    const Vec3 resisted = resisting ? resistedStep(frictionOf(set, touched, held), way, offset, proposal) : way;
     const Vec3 goal = offset + resisted;
     proposal.held = way - resisted;
     proposal.step = toStep(set, goal, held, proposal);
@@ -247,14 +257,23 @@ void SurfaceRules::moved(const Proposal& proposal, const Vec3& step) {
   const double length = step.norm();
   if (!(length > 0)) return;
   if (proposal.preslides()) {
-    presliding_m_ += step;
+    springs_ = proposal.springs.crept(step);
     return;
   }
   slip_.length += length;
   slip_.viscous_m += proposal.viscous * length;
   slipping_ = true;
-  // During a slip the springs stay stretched by the friction force that they carry.
-  presliding_m_ = proposal.presliding_ratio > 0 ? Vec3(proposal.held / proposal.presliding_ratio) : Vec3(Vec3::Zero());
+  springs_ = {};
+  if (!(proposal.springs.stiffness_N_m > 0)) return;
+  const double carried_m = std::max(0.0, proposal.held.norm() - slip_.viscous_m);  // by friction alone
+  const double ratio = proposal.springs.stiffness_N_m / felt_N_m_;
+  springs_ = proposal.springs.slipped(step, limited(proposal.held, carried_m) / ratio);
+}
+
+double SurfaceRules::released_J(const Proposal& proposal) const {
+  if (!proposal.preslides()) return 0;
+  const double scale = settings_.world_per_device;
+  return std::max(0.0, springs_.energy_J(scale) - proposal.springs.crept(proposal.step).energy_J(scale));
 }
 
 double SurfaceRules::stiffnessAt(const SurfacePoint& place) const {

@@ -7,8 +7,7 @@
 //   stiffness       the proxy does not change; the target moves from the proxy toward the finger
 //
 // For one sub-goal the two passes are repeated on the same contacts until they converge (settle()). A step that is not
-// plain descent toward the finger, but shaded, slipping or presliding, may raise the energy of the spring, and is paid
-// from the ledger's tank.
+// plain descent toward the finger, but shaded, may raise the energy of the spring, and is paid from the ledger's tank.
 // World frame; an "offset" is relative to the proxy at the start of the sub-goal.
 #pragma once
 
@@ -30,7 +29,7 @@ namespace hl {
 /// What friction knows at the start of a tick.
 struct FrictionStart {
   bool slipping = false;                 ///< the proxy slides
-  Vec3 presliding_m = Vec3::Zero();      ///< pre-sliding offset of the proxy from where it stuck, m
+  PreslidingSprings springs{};           ///< as the last tick left them
   double felt_N_m = 1000;                ///< the spring, feltSpring_N_m()
   const AdhesionLoads* loads = nullptr;  ///< or none
 };
@@ -45,7 +44,7 @@ class SurfaceRules {
         felt_N_m_(start.felt_N_m),
         loads_(start.loads),
         slipping_(start.slipping),
-        presliding_m_(start.presliding_m),
+        springs_(start.springs),
         as_default_(settings.surfaces.keepsDefault()) {}
 
   /// Whether a surface in contact has shading, a bump map or friction.
@@ -59,9 +58,15 @@ class SurfaceRules {
   void settle(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) const;
 
   /// To be called when the proxy has moved by `step`, a part of the proposed step. Updates the slip or the pre-sliding
-  /// offset.
+  /// springs.
   void moved(const Proposal& proposal, const Vec3& step);
-  const Vec3& presliding_m() const { return presliding_m_; }
+  /// The same after a step without the rules: surfaces without friction hold no springs.
+  void movedPlainly(const ContactSet& set) {
+    if (springs_.stiffness_N_m > 0 && !set.contacts.empty() && !any(set)) springs_ = {};
+  }
+  const PreslidingSprings& springs() const { return springs_; }
+  /// J, what the whole proposed step takes out of them, >= 0.
+  double released_J(const Proposal& proposal) const;
   bool hasSlipped() const { return slip_.length > 0; }
 
   /// The contact with its surface properties, for the tick report.
@@ -98,7 +103,7 @@ class SurfaceRules {
   double mobilityOf_m_Ns(const Contact& contact) const;
   FrictionOnWay frictionOf(const ContactSet& set, const TouchedSet& touched, const SolverResult& held) const;
   double adhesionLoad_m(const Contact& contact) const;
-  Vec3 resistedStep(FrictionOnWay resistance, const Vec3& way, double slipped_now, Proposal& proposal) const;
+  Vec3 resistedStep(FrictionOnWay resistance, const Vec3& way, const Vec3& offset, Proposal& proposal) const;
   void listActive(const TouchedSet& touched, const SolverResult& held, Proposal& proposal) const;
   bool slipsAtOnce(const TouchedSet& touched, const Proposal& proposal) const;
   bool staysOnFaces(const ContactSet& set, const TouchedSet& touched, const Vec3& step) const;
@@ -112,7 +117,7 @@ class SurfaceRules {
   const AdhesionLoads* const loads_;
   Slip slip_;
   bool slipping_;
-  Vec3 presliding_m_;
+  PreslidingSprings springs_;
   int proposals_ = 0;
   bool as_default_;  // no user setting changes the default material
 };

@@ -30,7 +30,7 @@ Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& stat
       goal_(finger),
       booking_(state, settings, finger),
       rules_(scene, settings, input_.tolerance,
-             {state.touching && state.rest_s < accuracy::kStuck_s, state.presliding_m, feltSpring_N_m(settings, state),
+             {state.touching && state.rest_s < accuracy::kStuck_s, state.presliding, feltSpring_N_m(settings, state),
               loads}),
       constraints_(input_),
       walk_(input_, state.cache),
@@ -113,7 +113,9 @@ void Tick::aimAt(const Vec3& place) {
 
 Ending Tick::judge(int iterations) const {
   if (progress_.settledOn(constraints_.set())) return Ending::kSettled;
-  if (progress_.stalled()) return constraints_.set().crowd ? Ending::kCrowded : Ending::kStalled;
+  // A step between tilted planes may end a little above them: there nothing holds the proxy, so it goes down again.
+  const bool may_stall = constraints_.touches() || constraints_.set().crowd;
+  if (progress_.stalled() && may_stall) return constraints_.set().crowd ? Ending::kCrowded : Ending::kStalled;
   if (!trial_.open() && atRest()) return endingOfRest();
   if (!trial_.open() && work_.ends()) return Ending::kOutOfWork;
   return iterations >= input_.settings.iteration_cap ? Ending::kCapped : Ending::kGoesOn;
@@ -151,7 +153,7 @@ void Tick::advance() {
   const bool follows = constraints_.touches() || proposal_.rule == Proposal::Rule::kCuts;
   const Walk::Along along = follows ? Walk::Along::kSurface : Walk::Along::kAir;
   const bool is_free = proposal_.descends() && goal_.isFinger();
-  const Vec3 step = is_free ? proposal_.step : booking_.afford(from, proposal_.step);
+  const Vec3 step = is_free ? proposal_.step : booking_.afford(from, proposal_.step, rules_.released_J(proposal_));
   bool whole = false;
   if (follows || !goal_.isFinger()) {
     whole = walk_.go(set, along, step, state_.position) == Walk::Made::kWhole;
@@ -161,7 +163,10 @@ void Tick::advance() {
   trial_.open() ? trial_.descended() : work_.stepped();
   if (progress_.idleAt(state_.position, goal_) && !trial_.open() && ledByRounding(from)) progress_.stall();
   if (heldByCrowd(from)) progress_.stall();
-  if (proposal_.rule == Proposal::Rule::kFelt) rules_.moved(proposal_, state_.position - from);
+  if (proposal_.rule == Proposal::Rule::kFelt)
+    rules_.moved(proposal_, state_.position - from);
+  else
+    rules_.movedPlainly(set);
   settle(whole && !booking_.spent(), state_.position - from);
 }
 
@@ -209,7 +214,7 @@ void Tick::close(TickReport& report) {
       surfaces.add(active.multiplier_m, rules_.stiffnessAt(active.place));
   }
   state_.out_of_work = outOfWork(state_, report.ending);
-  state_.presliding_m = rules_.presliding_m();
+  state_.presliding = rules_.springs();
   state_.rest_s = rules_.hasSlipped() ? 0 : std::min(state_.rest_s + input_.settings.period_s, accuracy::kStuck_s);
   booking_.close(state_, end, surfaces, causes, report);
 }

@@ -166,16 +166,18 @@ Keys keysOf(const google::protobuf::RepeatedField<std::uint64_t>& in, const std:
 
 void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
   const ProxyState& state = memory.state;
-  const MemoryValues values{state.position,     state.free,      state.touching,     state.rest_s,
-                            state.presliding_m, state.stiffness, state.time_ns,      state.snapshot,
-                            state.carrier,      state.snap,      state.ledger,       state.out_of_work,
-                            state.start.next(), memory.fading,   memory.last_target, memory.restarts};
+  const MemoryValues values{
+      state.position,  state.free,        state.touching,     state.rest_s,  state.presliding.stretch_m,
+      state.stiffness, state.time_ns,     state.snapshot,     state.carrier, state.snap,
+      state.ledger,    state.out_of_work, state.start.next(), memory.fading, memory.last_target,
+      memory.restarts};
   toProto(valuesOf(values), *out.mutable_memory());
   for (const AdheringContact& contact : state.adhering) {
     add(*out.mutable_adhering(), contact.normal);
     out.add_adhering(contact.adhesion_N);
   }
   for (const HeldSurface& surface : state.held) toProto(valuesOf(surface), *out.add_held());
+  out.set_presliding_n_m(state.presliding.stiffness_N_m);
   if (state.stiffness_said) out.set_stiffness_said(*state.stiffness_said);
   for (const std::uint64_t key : state.pierced) out.add_pierced(key);
   for (const std::uint64_t key : state.within) out.add_within(key);
@@ -195,7 +197,8 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.free = values.free;
   state.touching = values.touching;
   state.rest_s = values.rest_s;
-  state.presliding_m = values.presliding_m;
+  checkRanges(kMemory, {{"presliding_N_m", in.presliding_n_m(), 0, kMaxMemory}});
+  state.presliding = {values.presliding_m, in.presliding_n_m()};
   state.stiffness = values.stiffness;
   state.time_ns = values.time_ns;
   state.snapshot = values.snapshot;

@@ -130,7 +130,7 @@ TEST(EnergyBooking, InTheOpenTheTargetIsTheProxyAndNothingIsStuck) {
   const ProxySettings settings = settingsOf(LedgerMode::kTank);
   ProxyState state = heldBy(0.3);
   state.rest_s = 0;
-  state.presliding_m = Vec3(1e-6, 0, 0);
+  state.presliding.stretch_m = Vec3(1e-6, 0, 0);
   EnergyBooking booking(state, settings, kFinger);
   state.position = kFinger;
   TickReport report;
@@ -139,7 +139,7 @@ TEST(EnergyBooking, InTheOpenTheTargetIsTheProxyAndNothingIsStuck) {
   EXPECT_FALSE(state.touching);
   EXPECT_EQ(state.stiffness, 1);
   EXPECT_EQ(state.rest_s, accuracy::kStuck_s);
-  EXPECT_EQ(state.presliding_m, Vec3(Vec3::Zero()));
+  EXPECT_EQ(state.presliding.stretch_m, Vec3(Vec3::Zero()));
 }
 
 TEST(EnergyBooking, OnItsWayItAddsNothingAndFromTheOpenItPullsNowhere) {

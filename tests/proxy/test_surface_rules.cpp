@@ -35,8 +35,8 @@ struct At {
     position = place;
     gatherContacts(scene, place, tolerance.touching, tolerance.reach, set);
   }
-  SurfaceRules rules(bool slipping = false, const Vec3& presliding_m = Vec3::Zero()) const {
-    return {scene, settings, tolerance, FrictionStart{slipping, presliding_m, kK}};
+  SurfaceRules rules(bool slipping = false) const {
+    return {scene, settings, tolerance, FrictionStart{slipping, {}, kK}};
   }
   Proposal propose(SurfaceRules& by, const Vec3& finger) const {
     Proposal proposal;
@@ -146,7 +146,8 @@ TEST(SurfaceRules, AStuckProxyCreepsOnItsSprings) {
   EXPECT_NEAR(first.step.x(), 0.0001, 1e-12);
   rules.moved(first, first.step);
   at.goTo(at.position + first.step);
-  EXPECT_EQ(rules.presliding_m(), first.step);
+  EXPECT_EQ(rules.springs().stretch_m, first.step);
+  EXPECT_EQ(rules.springs().stiffness_N_m, 3 * kK);
   EXPECT_FALSE(rules.hasSlipped());
   EXPECT_LE(at.propose(rules, finger).step.norm(), 1e-12) << "balanced";
 }
