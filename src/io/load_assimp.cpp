@@ -23,8 +23,11 @@
 #include "io/clean_obj.h"
 #include "io/gltf_haptics.h"
 #include "io/load_model.h"
+#include "io/mapped_file.h"
 #include "io/only_file.h"
 #include "io/own_folder.h"
+#include "io/plain_off.h"
+#include "io/plain_stl.h"
 #include "io/read_appearance.h"
 #include "io/sandbox.h"
 #include "io/text_words.h"
@@ -171,6 +174,8 @@ std::string saidOf(const ModelFile& file, std::string text) {
 // than 16 bytes, which one point is: such a file gets blank lines at its end.
 std::optional<std::string> inPlaceOf(const ModelFile& file, std::vector<std::string>& warnings) {
   constexpr std::size_t kMinObj = 16;
+  if (file.ending == ".off") return plainOff(MappedFile(file.path).bytes(), warnings);
+  if (file.ending == ".stl") return plainStl(MappedFile(file.path).bytes(), warnings);
   if (file.ending != ".obj" && file.ending != ".x3d") return std::nullopt;
   const std::string text = contentOf(file.path).value_or("");
   if (file.ending == ".x3d" && text.size() > kMaxX3dBytes) return std::nullopt;

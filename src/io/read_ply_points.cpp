@@ -4,13 +4,14 @@
 #include <array>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/ply_body.h"
 #include "io/point_records.h"
 #include "io/read_clouds.h"
 #include "io/text_words.h"
@@ -40,25 +41,7 @@ struct PlyPoints {
 };
 
 ScalarKind plyKind(const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, ScalarKind>, 16> kForms{{{"char", ScalarKind::kInt8},
-                                                                            {"int8", ScalarKind::kInt8},
-                                                                            {"uchar", ScalarKind::kUint8},
-                                                                            {"uint8", ScalarKind::kUint8},
-                                                                            {"short", ScalarKind::kInt16},
-                                                                            {"int16", ScalarKind::kInt16},
-                                                                            {"ushort", ScalarKind::kUint16},
-                                                                            {"uint16", ScalarKind::kUint16},
-                                                                            {"int", ScalarKind::kInt32},
-                                                                            {"int32", ScalarKind::kInt32},
-                                                                            {"uint", ScalarKind::kUint32},
-                                                                            {"uint32", ScalarKind::kUint32},
-                                                                            {"float", ScalarKind::kFloat},
-                                                                            {"float32", ScalarKind::kFloat},
-                                                                            {"double", ScalarKind::kDouble},
-                                                                            {"float64", ScalarKind::kDouble}}};
-  for (const auto& [of, form] : kForms) {
-    if (of == name) return form;
-  }
+  if (const std::optional<ScalarKind> kind = plyKindOf(name)) return *kind;
   throw Error(std::string(kNoPly) + "it has numbers of type '" + shown(name) + "'");
 }
 

@@ -37,6 +37,18 @@ class TextWords {
   std::size_t at_ = 0, filled_ = 0;
 };
 
+/// Takes the first word from a line, with the blanks before it; empty at its end.
+inline std::string_view takeWord(std::string_view& line) {
+  const auto is_blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
+  std::size_t begin = 0;
+  while (begin < line.size() && is_blank(line[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < line.size() && !is_blank(line[end])) ++end;
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
+  return word;
+}
+
 /// `text` from a file as an error may show it: a short piece, without what cannot be printed.
 std::string shown(std::string_view text);
 
