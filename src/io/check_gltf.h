@@ -1,15 +1,25 @@
-// What is asked of a glTF file before it is read: its reader takes no notice of extensions that a file says it cannot
-// be read without (glTF 2.0, 3.12).
+// What is asked of a glTF file before it is read. Its reader takes no notice of extensions that a file says it cannot
+// be read without (glTF 2.0, 3.12), nor of members that are of another kind than they should be; it follows nodes that
+// contain themselves to the end of its memory, and leaves out faces whose vertices do not exist.
 #pragma once
 
+#include <boost/json.hpp>
 #include <string>
+#include <vector>
+
+#include "io/gltf_accessors.h"
 
 namespace hl {
 
-/// The JSON of a .gltf or .glb file; empty if it cannot be opened.
-std::string gltfJson(const std::string& path);
-/// `text`: gltfJson(). Throws hl::Error for one that needs an extension which is not read: what it changes of the shape
-/// would be missing.
-void checkGltf(const std::string& text);
+/// Throws hl::Error for a file that needs an extension which is not read: what it changes of the shape would be
+/// missing.
+void checkGltfExtensions(const boost::json::value& file);
+/// Throws hl::Error, with the element, for nodes and scenes that refer to what does not exist, contain themselves, are
+/// nested too deep or have transforms of too few numbers.
+void checkGltfNodes(const boost::json::value& file);
+/// The same for primitives: of an unknown mode, without numbers for positions, with too few vertices or with indices
+/// beyond them. What is left out is a warning.
+void checkGltfMeshes(const boost::json::value& file, const GltfAccessors& accessors,
+                     std::vector<std::string>& warnings);
 
 }  // namespace hl

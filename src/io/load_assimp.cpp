@@ -18,7 +18,6 @@
 #include "base/error.h"
 #include "base/plain_file.h"
 #include "geometry/polygon.h"
-#include "io/check_gltf.h"
 #include "io/check_ply.h"
 #include "io/clean_obj.h"
 #include "io/gltf_haptics.h"
@@ -26,6 +25,7 @@
 #include "io/mapped_file.h"
 #include "io/only_file.h"
 #include "io/own_folder.h"
+#include "io/plain_gltf.h"
 #include "io/plain_off.h"
 #include "io/plain_stl.h"
 #include "io/read_appearance.h"
@@ -129,11 +129,11 @@ void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& paren
     appendNode(import, *node.mChildren[i], to_world, material, depth + 1);
 }
 
+bool isGltf(const ModelFile& file) { return file.ending == ".gltf" || file.ending == ".glb"; }
+
 GltfHaptics hapticsOf(const ModelFile& file) {
-  if (file.ending != ".gltf" && file.ending != ".glb") return {};
-  const std::string json = gltfJson(file.path);
-  checkGltf(json);
-  return readGltfHaptics(json, file.path, file.alone);
+  if (!isGltf(file)) return {};
+  return readGltfHaptics(gltfJson(file.path), file.path, file.alone);
 }
 
 // Lists that would say "material 0" for every element are left out.
@@ -176,6 +176,7 @@ std::optional<std::string> inPlaceOf(const ModelFile& file, std::vector<std::str
   constexpr std::size_t kMinObj = 16;
   if (file.ending == ".off") return plainOff(MappedFile(file.path).bytes(), warnings);
   if (file.ending == ".stl") return plainStl(MappedFile(file.path).bytes(), warnings);
+  if (isGltf(file)) return plainGltf(file, warnings);
   if (file.ending != ".obj" && file.ending != ".x3d") return std::nullopt;
   const std::string text = contentOf(file.path).value_or("");
   if (file.ending == ".x3d" && text.size() > kMaxX3dBytes) return std::nullopt;
