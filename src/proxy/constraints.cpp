@@ -13,7 +13,8 @@ std::span<const Plane> planesOf(const ContactSet& set) { return {set.planes.begi
 }  // namespace
 
 void Constraints::gather(const Vec3& position, const Vec3& toward, SweepCache& cache) {
-  gatherContacts(input_.scene, position, toward, input_.tolerance.touching, input_.tolerance.reach, cache, set_);
+  gatherContacts(input_.scene, position, toward, input_.tolerance.touching, input_.tolerance.reach, cache, set_,
+                 input_.settings.surfaces);
 }
 
 // Whether the subproblem is infeasible, or its step leads away from the goal by much more than the proxy is below the

@@ -4,6 +4,9 @@
 #include <tuple>
 #include <utility>
 
+#include "proxy/surface.h"
+#include "scene/felt_order.h"
+
 namespace hl {
 
 namespace {
@@ -42,9 +45,39 @@ void addToCrowd(const Contact& contact, const Vec3& toward, ContactSet& set) {
   std::push_heap(set.contacts.begin(), set.contacts.end(), stays);
 }
 
-void add(const SceneAt& scene, PrimitiveId primitive, const ClosestPoint& nearest, const Vec3& toward, double reach,
-         ContactSet& set) {
-  Contact contact{{nearest.normal, reach - nearest.distance},
+bool areCopies(const SceneAt& scene, PrimitiveId a, PrimitiveId b) {
+  Primitive p = scene.primitive(a), q = scene.primitive(b);
+  toOneFrame(scene.instance(a), scene.instance(b), scene.time_ns(), p, q);
+  return areCopies(p, q);
+}
+
+// Whether `a` is the contact and `b` its twin. Most twins share an edge and are no copies, which the weights of their
+// points show: of copies in one object they are the same.
+bool comesFirst(const SceneAt& scene, const MaterialOverride& surfaces, const Contact& a, const Contact& b) {
+  const auto textured = [&](const Contact& contact) {
+    return mayBeTextured(scene, surfaces, contact.primitive, Quantity::kStiffness);
+  };
+  const bool may_be_copies = a.primitive.instance != b.primitive.instance || a.weights == b.weights;
+  if (may_be_copies && (textured(a) || textured(b)) && areCopies(scene, a.primitive, b.primitive)) {
+    const auto stiffness = [&](const Contact& contact) {
+      return Surface(scene, surfaces, contact.primitive).stiffness(contact.weights);
+    };
+    const double stiffness_a = stiffness(a), stiffness_b = stiffness(b);
+    if (stiffness_a != stiffness_b) return stiffness_a > stiffness_b;
+  }
+  return scene.precedes(a.primitive, b.primitive);
+}
+
+// What a search is for, whatever it finds.
+struct Gathering {
+  const SceneAt& scene;
+  const MaterialOverride& surfaces;
+  Vec3 toward;
+  double reach;
+};
+
+void add(const Gathering& by, PrimitiveId primitive, const ClosestPoint& nearest, ContactSet& set) {
+  Contact contact{{nearest.normal, by.reach - nearest.distance},
                   nearest.point,
                   nearest.distance,
                   nearest.feature,
@@ -53,11 +86,11 @@ void add(const SceneAt& scene, PrimitiveId primitive, const ClosestPoint& neares
   const auto same = [&](const Contact& other) { return samePlane(contact, other); };
   auto* twin = std::find_if(set.contacts.begin(), set.contacts.end(), same);
   if (twin == set.contacts.end()) {
-    if (!set.contacts.push(contact)) addToCrowd(contact, toward, set);
+    if (!set.contacts.push(contact)) addToCrowd(contact, by.toward, set);
     return;
   }
   if (twin->primitive == primitive) return;  // the index may offer a primitive twice
-  if (scene.precedes(primitive, twin->primitive)) std::swap(*twin, contact);
+  if (comesFirst(by.scene, by.surfaces, contact, *twin)) std::swap(*twin, contact);
   if (!set.twins.push(contact)) set.twins_lost = true;
 }
 
@@ -71,15 +104,17 @@ void sort(ContactSet& set) {
 }  // namespace
 
 void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set) {
+  const MaterialOverride none;
+  const Gathering by{scene, none, Vec3::Zero(), reach};
   clear(set);
-  scene.primitivesWithin(centre, distance, [&](PrimitiveId primitive, const ClosestPoint& nearest) {
-    add(scene, primitive, nearest, Vec3::Zero(), reach, set);
-  });
+  scene.primitivesWithin(centre, distance,
+                         [&](PrimitiveId primitive, const ClosestPoint& nearest) { add(by, primitive, nearest, set); });
   sort(set);
 }
 
 void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward, double distance, double reach,
-                    SweepCache& nearby, ContactSet& set) {
+                    SweepCache& nearby, ContactSet& set, const MaterialOverride& surfaces) {
+  const Gathering by{scene, surfaces, toward, reach};
   clear(set);
   if (!nearby.covers(scene, centre, distance)) {
     nearby.begin(scene, distance);
@@ -87,11 +122,11 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward
     scene.primitivesWithin(centre, distance, [&](PrimitiveId primitive, const ClosestPoint& nearest) {
       nearby.add(primitive);
       nearby.addMeasured(primitive, nearest);
-      add(scene, primitive, nearest, toward, reach, set);
+      add(by, primitive, nearest, set);
     });
     nearby.endAt(centre);
   } else if (nearby.hasMeasured(centre, distance)) {
-    for (const auto& [primitive, nearest] : nearby.measured()) add(scene, primitive, nearest, toward, reach, set);
+    for (const auto& [primitive, nearest] : nearby.measured()) add(by, primitive, nearest, set);
   } else {
     const double skin = distance - reach;  // larger than any rounding error
     nearby.beginMeasured(centre, distance);
@@ -99,7 +134,7 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward
       ClosestPoint nearest;
       if (!scene.closestWithin(primitive, centre, distance + skin, nearest) || nearest.distance > distance) return;
       nearby.addMeasured(primitive, nearest);
-      add(scene, primitive, nearest, toward, reach, set);
+      add(by, primitive, nearest, set);
     });
   }
   sort(set);

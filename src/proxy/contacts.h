@@ -45,12 +45,13 @@ struct ContactSet {
 
 /// Fills `set` with all primitives within `distance` of `centre`, as planes that keep the centre `reach` away from
 /// them. Sorted by plane. Of bitwise equal planes, the primitive that comes first by precedes() is the contact, and the
-/// others are twins. RT-safe.
+/// others are twins; of copies the one that is harder at its point, where textures say so. RT-safe.
 void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set);
 /// The same, but searches only the cache `nearby`. If the cache does not cover `centre`, the scene is searched and the
-/// cache filled. `toward`: the intended motion; it decides which contacts of a crowd are kept.
+/// cache filled. `toward`: the intended motion; it decides which contacts of a crowd are kept. `surfaces`: the user's
+/// settings; the function above knows none.
 void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward, double distance, double reach,
-                    SweepCache& nearby, ContactSet& set);
+                    SweepCache& nearby, ContactSet& set, const MaterialOverride& surfaces = {});
 
 /// Lists the contacts and twins of the set. Returns false if there are too many. RT-safe.
 bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, cost::kKnownRoom>& primitives);

@@ -92,6 +92,14 @@ inline double constantOf(const SceneAt& scene, const MaterialOverride& set, Prim
   return instance.surfaces->materials[scene.shape(id).materialOf(id.element)].*kMaterialNumbers[i];
 }
 
+/// Whether a texture may modulate the quantity on the surface of a primitive; known without reading the primitive.
+/// RT-safe.
+inline bool mayBeTextured(const SceneAt& scene, const MaterialOverride& set, PrimitiveId id, Quantity quantity) {
+  const Instance& instance = scene.instance(id);
+  if (instance.plain || !set.textures || set.number(static_cast<std::size_t>(quantity))) return false;
+  return instance.surfaces->materials[scene.shape(id).materialOf(id.element)].textureOf(quantity).used();
+}
+
 inline double Surface::stiffness(const std::array<double, 3>& weights) const {
   const SurfaceValue value = read(Quantity::kStiffness);
   return std::clamp(value.texture ? value.at(texcoord(weights)) : value.low, 0.0, 1.0);

@@ -66,6 +66,15 @@ int compareCorners(const FeltPrimitive& a, const FeltPrimitive& b) {
 
 }  // namespace
 
+void toOneFrame(const Instance& of_a, const Instance& of_b, std::int64_t time_ns, Primitive& a, Primitive& b) {
+  if (&of_a == &of_b) return;
+  const Pose pose_a = of_a.poses().at(time_ns), pose_b = of_b.poses().at(time_ns);
+  for (std::size_t i = 0; i < 3; ++i) {
+    a.vertex[i] = pose_a.toWorld(a.vertex[i]);
+    b.vertex[i] = pose_b.toWorld(b.vertex[i]);
+  }
+}
+
 int compareFelt(const FeltPrimitive& a, const FeltPrimitive& b) {
   const int numbers = compareNumbers(materialOf(a), materialOf(b));
   if (numbers != 0) return numbers;

@@ -144,14 +144,8 @@ Vec3 SceneAt::edge(PrimitiveId id, Feature feature) const {
 
 bool SceneAt::precedes(PrimitiveId a, PrimitiveId b) const {
   Primitive p = primitive(a), q = primitive(b);
-  if (a.instance != b.instance) {
-    const Pose pose_a = instance(a).poses().at(time_ns_), pose_b = instance(b).poses().at(time_ns_);
-    for (std::size_t i = 0; i < 3; ++i) {
-      p.vertex[i] = pose_a.toWorld(p.vertex[i]);
-      q.vertex[i] = pose_b.toWorld(q.vertex[i]);
-    }
-  }
-  if (p.vertex != q.vertex || p.kind != q.kind) return hl::precedes(p, q);
+  toOneFrame(instance(a), instance(b), time_ns_, p, q);
+  if (!areCopies(p, q)) return hl::precedes(p, q);
   const int felt = compareFelt({instance(a), a.element, p}, {instance(b), b.element, q});
   if (felt != 0) return felt < 0;
   return a.instance != b.instance ? instance(a).key < instance(b).key : p.source < q.source;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "base/realtime_guard.h"
 #include "effect_scenes.h"
@@ -123,6 +124,50 @@ TEST(Stiffness, OfCoincidentSurfacesTheHarderCountsInAnyOrder) {
   EXPECT_EQ(pullAlong(hard, soft), std::pair(0.02, 0.75));
   EXPECT_EQ(pullAlong(rough, hard), pullAlong(hard, rough));
   EXPECT_LT(pullAlong(hard, rough).first, 0.0195);
+}
+
+// The same with an image of stiffness on one of them: what it says at the place decides, if images count at all.
+TEST(Stiffness, OfCoincidentSurfacesTheOneThatIsHarderAtThePlaceCounts) {
+  const auto floors = [](bool image_first, bool as_objects) {
+    Texture ramp{"ramp", 2, 1, {0, 1}, Wrap::kClamp, Filter::kBilinear};
+    std::vector<Model> parts(2, test::floorModel());
+    parts[image_first ? 0 : 1].textures.push_back(ramp);
+    parts[image_first ? 0 : 1].materials[0].textureOf(Quantity::kStiffness) = {0, 0, 1};
+    parts[image_first ? 1 : 0].materials[0].stiffness = 0.7;
+    std::vector<Instance> instances;
+    for (Model& part : parts) {
+      Instance& instance = instances.emplace_back();
+      instance.shape = makeShape(std::move(part));
+      instance.surfaces = surfacesOf(instance.shape);
+      instance.key = instances.size();
+    }
+    if (as_objects) return makeSnapshot(std::move(instances));
+    Model model = test::floorModel();
+    test::addRectangle(model, {-0.1, 0, 0.1}, {0.2, 0, 0}, {0, 0, -0.2}, Vec3::UnitY());
+    model.materials = {instances[0].surfaces->materials[0], instances[1].surfaces->materials[0]};
+    model.triangle_materials = {0, 0, 1, 1};
+    model.textures.push_back(ramp);
+    return test::snapshotOf(std::move(model));
+  };
+  const auto felt = [](const Snapshot& scene, const ProxySettings& settings, double x) {
+    ProxyState state = startProxy(scene, settings, {x, 0.01, 0.03});
+    return tick(state, scene, settings, {x, 0, 0.03}).target.y() / kRadius;
+  };
+  const ProxySettings settings = settingsOf(LedgerMode::kReport);
+  ProxySettings no_images = settings, set = settings;
+  no_images.surfaces.textures = false;
+  set.surfaces.stiffness = 0.3;
+  for (const bool image_first : {true, false}) {
+    for (const bool as_objects : {true, false}) {
+      const auto scene = floors(image_first, as_objects);
+      for (double x = -0.09; x < 0.09; x += 0.0037) {
+        const double said = std::clamp(2 * ((x + 0.1) / 0.2 - 0.25), 0.0, 1.0);
+        EXPECT_NEAR(felt(*scene, settings, x), std::max(0.7, said), 1e-6) << x << image_first << as_objects;
+        EXPECT_NEAR(felt(*scene, no_images, x), 1, 1e-9) << x;
+        EXPECT_NEAR(felt(*scene, set, x), 0.3, 1e-9) << x;
+      }
+    }
+  }
 }
 
 // Edges, corners and faces of all directions, one material: what sends a proxy through the air within a tick.
