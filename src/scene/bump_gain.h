@@ -9,8 +9,15 @@
 
 namespace hl {
 
-/// The largest second derivative of a material's bump map over the triangles that use it, 1/m; 0 without a map. For h =
-/// A sin(2 pi x / w) it is A (2 pi / w)^2. Linear in texels and triangles; not for real-time threads.
+/// Whether an image has a slope somewhere along u or v, of those that `along` is not 0 for: that of
+/// Texture::gradient(), as the tick has it. An image whose texels differ may have none. Linear in texels where there is
+/// none, else it ends with the first row that has one.
+bool hasSlope(const Texture& texture, const Vec2& along);
+
+/// The largest change of the slope that a material's bump map is felt with, over the triangles that use it, 1/m; 0
+/// without a map. For h = A sin(2 pi x / w) it is A (2 pi / w)^2, less what Texture::gradient() leaves out. Where
+/// triangles stretch or shear the map in different ways it is an upper bound. Linear in texels and triangles; not for
+/// real-time threads.
 double bumpCurvature_per_m(const Snapshot& snapshot, std::size_t material);
 
 /// The normal force, N, up to which a bump map of this curvature is passive.

@@ -23,8 +23,8 @@ struct Texture {
 
   /// The value at (u, v). RT-safe.
   double sample(const Vec2& uv) const;
-  /// d sample / d(u, v), with central differences at the texels and bilinear interpolation between them. It is
-  /// continuous, so a bump map turns the normal without jumps. RT-safe.
+  /// The slope of a bump map, per unit of u and v: half the difference of a texel's neighbours at its centre, bilinear
+  /// between centres. Continuous, so that the normal turns without jumps; 0 for a pattern of two texels. RT-safe.
   Vec2 gradient(const Vec2& uv) const;
 
  private:
