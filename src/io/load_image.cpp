@@ -51,13 +51,30 @@ void checkPng(int code) {
   if (code != 0) throw Error(kNoPng + std::string(spng_strerror(code)));
 }
 
+using ImageProgress = std::function<void(double fraction)>;
+
+// Row by row, as a large picture takes seconds. An interlaced one comes in passes, each over the whole picture; its
+// first passes have few rows, so that the fraction is a rough one.
+void decodeRows(spng_ctx& png, const spng_ihdr& header, spng_format format, void* pixels, std::size_t row_bytes,
+                const ImageProgress& progress) {
+  constexpr std::uint32_t kRowsPerReport = 256;
+  checkPng(spng_decode_image(&png, nullptr, 0, format, SPNG_DECODE_PROGRESSIVE));
+  for (int code = 0; code != SPNG_EOI;) {
+    spng_row_info row{};
+    checkPng(spng_get_row_info(&png, &row));
+    code = spng_decode_row(&png, static_cast<char*>(pixels) + row_bytes * row.row_num, row_bytes);
+    if (code != SPNG_EOI) checkPng(code);
+    if (progress && row.row_num % kRowsPerReport == 0) progress(static_cast<double>(row.row_num) / header.height);
+  }
+}
+
 // `Channel`: of what is decoded, RGBA.
 template <typename Channel>
-Texture decodeRgba(spng_ctx& png, const spng_ihdr& header, spng_format format) {
+Texture decodeRgba(spng_ctx& png, const spng_ihdr& header, spng_format format, const ImageProgress& progress) {
   constexpr std::size_t kChannels = 4;
   constexpr auto kFull = static_cast<float>(static_cast<Channel>(-1));
   std::vector<Channel> rgba(kChannels * header.width * header.height);
-  checkPng(spng_decode_image(&png, rgba.data(), rgba.size() * sizeof(Channel), format, 0));
+  decodeRows(png, header, format, rgba.data(), rgba.size() * sizeof(Channel) / header.height, progress);
   checkPng(spng_decode_chunks(&png));  // up to the end of the file
   return textureOf(header.width, header.height, [&](std::size_t i) {
     const Channel* const pixel = &rgba[kChannels * i];
@@ -76,12 +93,12 @@ Png openPng(const std::string& bytes, spng_ihdr& header) {
   return png;
 }
 
-Texture decodePng(const std::string& bytes) {
+Texture decodePng(const std::string& bytes, const ImageProgress& progress) {
   spng_ihdr header{};
   const Png png = openPng(bytes, header);
   checkSize(header.width, header.height);
-  return header.bit_depth == 16 ? decodeRgba<std::uint16_t>(*png, header, SPNG_FMT_RGBA16)
-                                : decodeRgba<std::uint8_t>(*png, header, SPNG_FMT_RGBA8);
+  return header.bit_depth == 16 ? decodeRgba<std::uint16_t>(*png, header, SPNG_FMT_RGBA16, progress)
+                                : decodeRgba<std::uint8_t>(*png, header, SPNG_FMT_RGBA8, progress);
 }
 
 class Jpeg {
@@ -128,13 +145,13 @@ void checkIsImage(const std::string& path) {
 
 // What a child process puts into a model.
 template <typename Read>
-Model readBeside(const std::string& path, const Read& read) {
-  const auto parse = [&](const auto&) {
+Model readBeside(const std::string& path, const ImageProgress& progress, const Read& read) {
+  const auto parse = [&](const auto& report) {
     Model carrier;
-    read(carrier);
+    read(carrier, report);
     return carrier;
   };
-  return runIsolated(path, {}, parse, nullptr).model;
+  return runIsolated(path, {}, parse, progress).model;
 }
 
 }  // namespace
@@ -161,25 +178,28 @@ std::shared_ptr<const std::string> checkedPicture(std::string bytes) {
 
 std::shared_ptr<const std::string> loadPicture(const std::string& path) {
   checkIsImage(path);
-  const Model read = readBeside(path, [&](Model& carrier) {
+  const Model read = readBeside(path, nullptr, [&](Model& carrier, const auto&) {
     carrier.appearance.pictures.push_back({checkedPicture(contentOf(path).value_or(""))});
   });
   if (read.appearance.pictures.size() != 1) throw Error(path + ": its reader gave no picture");
   return read.appearance.pictures.front().file;
 }
 
-Texture readImage(const std::string& path) {
+Texture readImage(const std::string& path, const ImageProgress& progress) {
   checkIsImage(path);
   const std::string bytes = contentOf(path).value_or("");
-  Texture texture = endingOf(path) == ".png" ? decodePng(bytes) : decodeJpeg(bytes);
+  Texture texture = endingOf(path) == ".png" ? decodePng(bytes, progress) : decodeJpeg(bytes);
   texture.name = std::filesystem::path(path).filename().string();
   return texture;
 }
 
-Texture loadImage(const std::string& path) {
+Texture loadImage(const std::string& path, const ImageProgress& progress) {
   checkIsImage(path);
-  Model model = readBeside(path, [&](Model& carrier) { carrier.textures.push_back(readImage(path)); });
+  Model model = readBeside(path, progress, [&](Model& carrier, const auto& report) {
+    carrier.textures.push_back(readImage(path, [&](double fraction) { report(fraction); }));
+  });
   if (model.textures.size() != 1) throw Error(path + ": its reader gave no picture");
+  if (progress) progress(1);
   return std::move(model.textures.front());
 }
 

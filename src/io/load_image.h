@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -11,7 +12,8 @@ namespace hl {
 
 /// Reads a .png, .jpg or .jpeg file; colours become their luminance, transparency is left out, 16-bit PNG keeps its
 /// depth. The lowest row of the picture is v = 0. Decodes in a child process, like model files. Throws hl::Error.
-Texture loadImage(const std::string& path);
+/// `progress` is called with fractions of the decoding, 0..1.
+Texture loadImage(const std::string& path, const std::function<void(double fraction)>& progress = nullptr);
 
 /// Pixels.
 struct ImageSize {
@@ -26,6 +28,6 @@ std::shared_ptr<const std::string> checkedPicture(std::string bytes);
 std::shared_ptr<const std::string> loadPicture(const std::string& path);
 
 /// The same as loadImage(), in a process that reads a foreign file already (isolated.h).
-Texture readImage(const std::string& path);
+Texture readImage(const std::string& path, const std::function<void(double fraction)>& progress = nullptr);
 
 }  // namespace hl

@@ -170,7 +170,7 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
   if (in.source_case() == proto::TextureImage::kFile) {
     if (options_.alone) fail(where, where + ".file: " + kAlone);
     try {
-      texture = loadImage((folder_ / in.file()).string());
+      texture = loadImage((folder_ / in.file()).string(), options_.progress);
     } catch (const Error& error) {
       fail(where, error.what());
     }
