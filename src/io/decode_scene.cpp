@@ -391,7 +391,7 @@ Texture SceneDecoder::texture(const proto::TextureImage& in, std::size_t most_te
     for (const char byte : t.values())
       texture.texels.push_back(static_cast<float>(static_cast<unsigned char>(byte)) / 255.0f);
   } else {
-    fail(where, where + ": a texture needs a file, a procedural or texels; a client's cannot be a file");
+    fail(where, where + ": a texture needs a procedural or texels; a client's cannot be a file");
   }
   setReading(in, texture, where);
   return texture;

@@ -190,6 +190,12 @@ std::vector<std::size_t> JsonLines::linesOf(const std::vector<std::string>& path
   return lines;
 }
 
-bool JsonLines::has(const std::string& path) const { return findLines(text_, {path}).at(path).length == path.size(); }
+std::vector<bool> JsonLines::have(const std::vector<std::string>& paths) const {
+  std::vector<bool> there;
+  there.reserve(paths.size());
+  const FoundLines found = findLines(text_, paths);
+  for (const std::string& path : paths) there.push_back(found.at(path).length == path.size());
+  return there;
+}
 
 }  // namespace hl

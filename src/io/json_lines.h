@@ -19,7 +19,9 @@ class JsonLines {
   /// 1. Reads the text again, once: it is for errors and warnings.
   std::vector<std::size_t> linesOf(const std::vector<std::string>& paths) const;
   /// Whether there is a value at the path. Reads the text again.
-  bool has(const std::string& path) const;
+  bool has(const std::string& path) const { return have({path}).front(); }
+  /// The same for each of them. Reads the text again, once.
+  std::vector<bool> have(const std::vector<std::string>& paths) const;
 
  private:
   std::string_view text_;

@@ -7,6 +7,7 @@
 #include "io/file_ending.h"
 #include "io/load_scene_file.h"
 #include "io/vdb_file.h"
+#include "scene/idle_settings.h"
 
 namespace hl {
 
@@ -18,7 +19,9 @@ SceneModel loadScene(const std::string& spec, const LoadOptions& options) {
   const auto status = std::filesystem::symlink_status(spec, failed);
   const bool looks_like_a_file = spec.find_first_of("./") != std::string::npos || std::filesystem::exists(status);
   if (!looks_like_a_file) return makeBuiltinScene(spec);  // throws, with the list
-  return loadModelScene(spec, options);
+  SceneModel scene = loadModelScene(spec, options);
+  leaveIdleOut(scene.model);
+  return scene;
 }
 
 }  // namespace hl

@@ -21,6 +21,7 @@
 #include "io/json_lines.h"
 #include "io/load_image.h"
 #include "io/scene_mechanics.h"
+#include "io/scene_notes.h"
 #include "io/scene_surfaces.h"
 #include "io/vec_messages.h"
 #include "scene/append_part.h"
@@ -68,8 +69,8 @@ class SceneFile {
         text_(readText(path)),
         lines_(place_, text_),
         decoder_([this](const std::string& where, const std::string& message) { fail(where, message); }),
-        mechanics_(decoder_, [this](const std::string& where,
-                                    const std::string& message) { said_.emplace_back(where, message); }),
+        mechanics_(decoder_,
+                   [this](const std::string& where, const std::string& message) { notes_.say(where, message); }),
         surfaces_(folder_, options_) {
     parse();
   }
@@ -90,6 +91,8 @@ class SceneFile {
   void checkFinite(const google::protobuf::Message& message, const std::string& where) const;
   void addTexture(Model& model, const proto::TextureImage& in, const std::string& where);
   Material materialOf(const proto::Material& in, const std::string& where) const;
+  Material materialOn(const TextureRoom& room, const proto::SceneObject& object, const std::string& where,
+                      const Model& whole);
   Model shapeOf(const proto::SceneObject& object, const std::string& where);
   Model fileModel(const proto::SceneObject& object, const std::string& where);
   CadMeshing meshingOf(const proto::SceneObject& object, const std::string& where) const;
@@ -97,16 +100,15 @@ class SceneFile {
   Appearance pictureOn(const proto::SceneObject& object, bool has_texcoords, const std::string& where);
   void paint(const proto::SceneObject& object, const std::string& where, Model& part);
   void setMaterial(const proto::SceneObject& object, const std::string& where, const Model& whole,
-                   SceneSurface& surface) const;
+                   SceneSurface& surface);
   void addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene);
   Placement placementOf(const proto::Transform& in, const std::string& where) const;
   Pose poseOf(const proto::Transform& in, const std::string& where) const;
-  void addAtRest(Model part, const proto::SceneObject& object, const std::string& where, SceneModel& scene) const;
+  void addAtRest(Model part, const proto::SceneObject& object, const std::string& where, SceneModel& scene);
   SnapList snapsOf(const proto::SceneObject& object, const Placement& placement, const std::string& where) const;
   FieldList fieldsOf(const proto::SceneObject& object, const Placement& placement, const std::string& where) const;
-  SceneBody bodyOf(Model part, const proto::SceneObject& object, const std::string& where, const Model& whole) const;
+  SceneBody bodyOf(Model part, const proto::SceneObject& object, const std::string& where, const Model& whole);
   void checkPlaces(const SceneModel& scene) const;
-  void addSaid(Model& whole) const;
 
   const std::string path_;
   const std::string place_;  // what stands before the line's number in errors
@@ -115,7 +117,7 @@ class SceneFile {
   const std::string text_;
   const JsonLines lines_;
   const SceneDecoder decoder_;
-  std::vector<std::pair<std::string, std::string>> said_;  // places, and what is to be said of them
+  SceneNotes notes_;
   const SceneMechanics mechanics_;
   proto::Scene scene_;
   std::map<std::string, std::uint32_t> textures_;
@@ -133,7 +135,9 @@ class SceneFile {
 void SceneFile::parse() {
   if (text_[text_.find_first_not_of(" \t\r\n")] != '{')
     fail("", "a scene file must be one object: {\"objects\": [..]}");
-  const auto status = google::protobuf::util::JsonStringToMessage(text_, &scene_);
+  google::protobuf::util::JsonParseOptions options;
+  options.case_insensitive_enum_parsing = true;  // as the words of procedural textures and of options are small
+  const auto status = google::protobuf::util::JsonStringToMessage(text_, &scene_, options);
   if (status.ok()) {
     const std::string flag = textForFlag(text_, *proto::Scene::descriptor());
     if (!flag.empty()) fail(flag, flag + ": it must be true or false, without quotation marks");
@@ -175,6 +179,8 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
       fail(where, error.what());
     }
     decoder_.setReading(in, texture, where);
+  } else if (in.source_case() == proto::TextureImage::SOURCE_NOT_SET) {
+    fail(where, where + ": a texture needs a file, a procedural or texels");
   } else {
     texture = decoder_.texture(in, std::min(kMaxFileTexels, options_.most_texels - texels_), where);
   }
@@ -196,6 +202,14 @@ Material SceneFile::materialOf(const proto::Material& in, const std::string& whe
     if (found == textures_.end()) fail(at, at + ": there is no texture '" + use.texture + "' in this scene");
     material.textures[quantity] = {found->second, use.low, use.high};
   }
+  return material;
+}
+
+// Without the textures that nobody could feel on what has this room for them.
+Material SceneFile::materialOn(const TextureRoom& room, const proto::SceneObject& object, const std::string& where,
+                               const Model& whole) {
+  Material material = materialOf(object.material(), where + ".material");
+  notes_.leaveIdleOut(material, room, whole.textures, object, where);
   return material;
 }
 
@@ -290,13 +304,14 @@ void SceneFile::paint(const proto::SceneObject& object, const std::string& where
 }
 
 void SceneFile::setMaterial(const proto::SceneObject& object, const std::string& where, const Model& whole,
-                            SceneSurface& surface) const {
-  surface.material = materialOf(object.material(), where);
-  surface.textures = ownTextures(surface.material, whole);
+                            SceneSurface& surface) {
+  const std::string at = where + ".material";
+  if (object.material().textures_size() > 0 && !surface.source->hasTexcoords())
+    fail(at + ".textures",
+         at + ": volumes, clouds and implicit surfaces have no texture coordinates, and take no textures");
   surface.repeat = repeatOf(object.material());
-  if (!surface.textures.empty() && !surface.source->hasTexcoords())
-    fail(where + ".textures",
-         where + ": volumes, clouds and implicit surfaces have no texture coordinates, and take no textures");
+  surface.material = materialOn({true, true, surface.repeat.cwiseAbs()}, object, where, whole);
+  surface.textures = ownTextures(surface.material, whole);
 }
 
 // What a reader had to say of the object.
@@ -324,7 +339,7 @@ void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string&
     surface.name = surfaces.size() == 1 ? name : name + " " + surface.name;
     surface.colour = colourOf(object, where);
     surface.appearance = pictureOn(object, surface.source->hasTexcoords(), where);
-    if (object.has_material() || !object.has_builtin()) setMaterial(object, where + ".material", scene.model, surface);
+    if (object.has_material() || !object.has_builtin()) setMaterial(object, where, scene.model, surface);
     scene.surfaces.push_back(std::move(surface));
   }
   for (SnapSpec& snap : snapsOf(object, placement, where)) scene.snaps.push_back(std::move(snap));
@@ -368,12 +383,11 @@ FieldList SceneFile::fieldsOf(const proto::SceneObject& object, const Placement&
   return placed(decoder_.fields(object.fields(), where + ".fields"), placement);
 }
 
-void SceneFile::addAtRest(Model part, const proto::SceneObject& object, const std::string& where,
-                          SceneModel& scene) const {
+void SceneFile::addAtRest(Model part, const proto::SceneObject& object, const std::string& where, SceneModel& scene) {
   Model& whole = scene.model;
   const Placement placement = placementOf(object.transform(), where + ".transform");
   placeModel(part, placement);
-  whole.materials.push_back(materialOf(object.material(), where + ".material"));
+  whole.materials.push_back(materialOn(roomOn(part), object, where, whole));
   appendPart(whole, part, static_cast<std::uint16_t>(whole.materials.size() - 1));
   addWarnings(part.warnings, object, whole);
   for (SnapSpec& snap : snapsOf(object, placement, where)) scene.snaps.push_back(std::move(snap));
@@ -381,7 +395,7 @@ void SceneFile::addAtRest(Model part, const proto::SceneObject& object, const st
 }
 
 SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const std::string& where,
-                            const Model& whole) const {
+                            const Model& whole) {
   SceneBody body;
   body.name = object.name().empty() ? where : object.name();
   placementOf(object.transform(), where + ".transform");  // refuses what flattens it
@@ -391,7 +405,7 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
   body.snaps = snapsOf(object, scaleOf(object.transform()), where);
   body.fields = fieldsOf(object, scaleOf(object.transform()), where);
   body.model = std::move(part);
-  body.model.materials.assign(1, materialOf(object.material(), where + ".material"));
+  body.model.materials.assign(1, materialOn(roomOn(body.model), object, where, whole));
   for (auto* list : {&body.model.triangle_materials, &body.model.segment_materials, &body.model.point_materials})
     list->clear();
   body.model.textures = ownTextures(body.model.materials.front(), whole);
@@ -411,15 +425,6 @@ void SceneFile::checkPlaces(const SceneModel& scene) const {
   check(snap_points, kMaxSnapPoints, "points of snaps");
   check(fieldsIn(scene), kMaxFields, "fields");
   check(field_points, kMaxSnapPoints, "points of fields");
-}
-
-// What is no error, with the line at which it is.
-void SceneFile::addSaid(Model& whole) const {
-  std::vector<std::string> places;
-  places.reserve(said_.size());
-  for (const auto& [where, message] : said_) places.push_back(where);
-  const std::vector<std::size_t> lines = lines_.linesOf(places);
-  for (std::size_t i = 0; i < said_.size(); ++i) whole.warnings.push_back(lineAt(lines[i], said_[i].second));
 }
 
 SceneModel SceneFile::build() {
@@ -460,7 +465,8 @@ SceneModel SceneFile::build() {
   mechanics_.addJoints(scene_, scene);
   scaleModel(scene, units);
   mechanics_.check(scene_, scene);
-  addSaid(whole);
+  notes_.forEach(
+      lines_, [&](std::size_t line, const std::string& message) { whole.warnings.push_back(lineAt(line, message)); });
   return scene;
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/decode_scene.h"
 #include "scene/append_part.h"
+#include "scene/idle_settings.h"
 #include "session/decode_joints.h"
 #include "session/frame_changes.h"
 #include "session/frame_report.h"
@@ -58,6 +59,7 @@ class FrameDecoder {
   SceneItem itemOf(const proto::Item& in, const Shape* before, const std::string& where);
   static std::shared_ptr<const Placement> placementOf(const proto::Item& in, const std::string& where);
   std::shared_ptr<const SurfaceChange> surfaceOf(const proto::Item& in, const std::string& where) const;
+  void warnOfIdle(const SceneItem& item, const std::string& named);
   void countItems();
 
   const proto::Frame& frame_;
@@ -168,9 +170,11 @@ SceneItem FrameDecoder::itemOf(const proto::Item& in, const Shape* before, const
   switch (in.what_case()) {
     case proto::Item::kPrimitives:
       item.shape = report_.noted(shapes_.of(in.primitives(), in, before, where + ".primitives"), named);
+      warnOfIdle(item, named);
       return item;
     case proto::Item::kUpload:
       item.shape = report_.noted(shapes_.of(shapes_.upload(in.upload(), where), in, before, where + ".upload"), named);
+      warnOfIdle(item, named);
       return item;
     case proto::Item::kCall:
       if (in.call() == 0) throw Error(where + ".call must not be 0");
@@ -189,6 +193,27 @@ std::shared_ptr<const SurfaceChange> FrameDecoder::surfaceOf(const proto::Item& 
   SurfaceChange surface = decoder_.surface(in.material(), where);
   surface.untextured = in.untextured();
   return std::make_shared<const SurfaceChange>(std::move(surface));
+}
+
+// Of its own surface; the rest is its callers'. A texture may be left on over lines and points, as in GL.
+void FrameDecoder::warnOfIdle(const SceneItem& item, const std::string& named) {
+  if (!item.surface) return;
+  const SurfaceChange& surface = *item.surface;
+  Material material = surface.material();
+  bool textured = false;
+  for (std::size_t i = 0; i < kQuantities; ++i) {
+    if (!surface.textures[i]) continue;
+    textured = true;
+    material.textures[i] = {0, surface.textures[i]->low, surface.textures[i]->high};
+  }
+  const TextureRoom room = textured ? roomOn(*item.shape) : TextureRoom{};
+  if (!room.triangles) material.textures = {};
+  const auto texture_of = [&](Quantity quantity) -> UsedTexture {
+    const std::string& name = surface.textures[static_cast<std::size_t>(quantity)]->texture;
+    const auto found = result_.edit.textures.find(name);
+    return {name, found == result_.edit.textures.end() ? nullptr : found->second.get()};
+  };
+  for (const IdleSetting& idle : idleSettings(material, room, texture_of)) report_.warn(named, idle.words);
 }
 
 std::shared_ptr<const Placement> FrameDecoder::placementOf(const proto::Item& in, const std::string& where) {

@@ -587,6 +587,35 @@ TEST(DecodeFrame, WarningsHaveAnEnd) {
   EXPECT_EQ(decoded.warnings.back(), "and 80 more lines about what was skipped");
 }
 
+// As of scene files; but a texture that is left on over lines is no mistake.
+TEST(DecodeFrame, WhatNobodyCouldFeelIsAWarning) {
+  proto::Frame frame;
+  addTexture(frame, "a", 8);
+  for (const bool lines : {false, true}) {
+    proto::Item& item = *frame.mutable_world()->add_items();
+    item.set_name(5);
+    for (const double v : {0., 0., 0., 1., 0., 0., 0., 1., 0.}) item.mutable_primitives()->add_vertices(v);
+    auto& list =
+        lines ? *item.mutable_primitives()->mutable_segments() : *item.mutable_primitives()->mutable_triangles();
+    for (const std::uint32_t v : {0U, 1U, 2U}) {
+      if (!lines || v < 2) list.Add(v);
+    }
+    proto::MaterialTexture& use = *item.mutable_material()->add_textures();
+    use.set_texture("a");
+    use.set_quantity(proto::VISCOSITY);
+  }
+  frame.mutable_world()->mutable_items(1)->mutable_material()->set_static_friction(0.1);
+  frame.mutable_world()->mutable_items(1)->mutable_material()->set_dynamic_friction(0.2);
+  Uploads none;
+  const DecodedFrame decoded = decodeFrame(frame, none, {}, {}, [](double) {});
+  ASSERT_EQ(decoded.warnings.size(), 2U);
+  EXPECT_EQ(decoded.warnings[0],
+            "world.items[0], named 5: its viscosity texture 'a' is not felt: there are no texture coordinates");
+  EXPECT_EQ(decoded.warnings[1],
+            "world.items[1], named 5: its static friction of 0.1 is below its dynamic friction of 0.2, and counts as "
+            "that");
+}
+
 TEST(DecodeFrame, AnUploadInPartsIsOneMesh) {
   Uploads uploads;
   for (int part = 0; part < 3; ++part) {
