@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "put.h"
-#include "touch/exploration.h"
 
 namespace hl {
 
@@ -14,8 +13,7 @@ namespace {
 
 constexpr double kSide_D = 0.12, kRadius_D = 0.002;  // m at the hand, as hl touch without options
 constexpr double kApproach_s = 3, kStartAbove_D = 0.020;
-constexpr double kPress_D = 0.012, kLift_D = 0.010;  // m, of the exploring hand
-constexpr int kStepsOfHand = 16;                     // the hand's goal is moved about 60 times a second
+constexpr int kStepsOfHand = 16;  // the hand's goal is moved about 60 times a second
 
 }  // namespace
 
@@ -60,10 +58,21 @@ void WebSession::oneStep() {
 }
 
 void WebSession::moveHand() {
-  const double scale = commands_.workspace.world_per_device;
-  const ExplorationSettings stroke{kPress_D * scale, kLift_D * scale, commands_.radius_W};
-  const Vec3 goal_W = explore({*snapshot_, now_ns_}, stroke, 1e-9 * static_cast<double>(now_ns_ - begin_ns_));
-  device_.setHandGoal(clamped(commands_.workspace.toDevice(goal_W)));
+  const Workspace& workspace = commands_.workspace;
+  const ServoTarget& target = step_.target();
+  const DeviceInfo& info = device_.info();
+  const ExploringHand hand{workspace.toWorld(target.valid ? target.proxy_D : sample_.position),
+                           commands_.radius_W,
+                           workspace.world_per_device,
+                           pressOf(firm_, settings_.stiffness_N_m, workspace.world_per_device),
+                           {workspace.toWorld(info.workspace_min), workspace.toWorld(info.workspace_max)}};
+  const Vec3 goal_W = exploration_.goal({*snapshot_, now_ns_}, hand, 1e-9 * static_cast<double>(now_ns_ - begin_ns_));
+  device_.setHandGoal(clamped(workspace.toDevice(goal_W)));
+}
+
+void WebSession::setExplore(bool on) {
+  exploring_ = on;
+  exploration_.begin();
 }
 
 Vec3 WebSession::clamped(const Vec3& goal_D) const {

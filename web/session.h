@@ -8,6 +8,7 @@
 #include "scene/iso_shape.h"
 #include "sent_scene.h"
 #include "touch/ending_counts.h"
+#include "touch/exploration.h"
 #include "touch/snapshot_slot.h"
 #include "touch/touch_step.h"
 
@@ -23,7 +24,7 @@ class WebSession {
   void press(std::uint32_t buttons) { device_.setHandButtons(buttons); }
   void turn(const Eigen::Quaterniond& turned) { device_.setHandTurn(turned); }
   void rearm() { arm(step_.servo()); }
-  void setExplore(bool on) { exploring_ = on; }
+  void setExplore(bool on);
   void setFirm(bool firm);
   void setStiffness(double stiffness_N_m);
   /// Another surface of the volume of this number. Throws hl::Error, and changes nothing, for a value that is none.
@@ -58,6 +59,7 @@ class WebSession {
   DeviceSample sample_;
   ProxyCommands commands_;
   EndingCounts endings_;
+  Exploration exploration_;
   std::int64_t now_ns_ = 0, begin_ns_ = 0, period_ns_;
   std::uint64_t steps_ = 0;
   bool exploring_ = false, firm_ = false;

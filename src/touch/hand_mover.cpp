@@ -8,7 +8,6 @@
 #include "base/duration.h"
 #include "base/guarded_thread.h"
 #include "base/periodic.h"
-#include "touch/exploration.h"
 
 namespace hl {
 
@@ -18,8 +17,6 @@ constexpr std::int64_t kPeriod_ns = 16'666'667;
 constexpr std::int64_t kPress_ns = 1'000'000'000;  // after which a button comes up by itself
 constexpr double kApproach_s = 3.0;                // virtual time for the hand to reach the start
 constexpr double kStartAbove_D = 0.020;            // m above the model at the hand
-constexpr double kPress_D = 0.012;                 // m, how far beneath the surface the exploring hand aims
-constexpr double kLift_D = 0.010;
 
 }  // namespace
 
@@ -80,16 +77,19 @@ HandMover::Commands HandMover::takeCommands() {
 
 // A person, the script or the exploration, in this order.
 void HandMover::follow(const Commands& commands) {
-  if (commands.explore) exploring_ = *commands.explore;
+  if (commands.explore) {
+    exploring_ = *commands.explore;
+    exploration_.begin();
+  }
   if (aside_top_D_ >= 0) return holdAside();
   const Workspace workspace = live_.workspace();
   if (commands.goal_W) {
     exploring_ = false;
     hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
   } else if (commands.release) {
-    Vec3 finger_D = Vec3::Zero();
-    exchange_.finger_for_hand_D.read(finger_D);
-    hand_->setHandGoal(clampToWorkspace(finger_D));
+    HandPlaces hand;
+    exchange_.hand.read(hand);
+    hand_->setHandGoal(clampToWorkspace(hand.finger_D));
   } else if (exploring_) {
     if (const auto goal_W = strokingGoal()) hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*goal_W)));
     turnAsScripted();
@@ -114,14 +114,25 @@ void HandMover::turnAsScripted() const {
 }
 
 // With nothing to stroke the hand waits.
-std::optional<Vec3> HandMover::strokingGoal() const {
+std::optional<Vec3> HandMover::strokingGoal() {
   const std::int64_t now_ns = monotonicNow_ns();
   const double time_s = seconds(now_ns - begin_ns_);
   if (script_) return script_->at(time_s);
   const std::shared_ptr<const Snapshot> scene = scene_();
   if (scene->bounds.empty()) return {};
-  const double scale = live_.workspace().world_per_device;
-  return explore({*scene, now_ns}, {kPress_D * scale, kLift_D * scale, live_.radius_W()}, time_s);
+  return exploration_.goal({*scene, now_ns}, exploringHand(), time_s);
+}
+
+ExploringHand HandMover::exploringHand() {
+  const Workspace workspace = live_.workspace();
+  HandPlaces hand;
+  exchange_.hand.read(hand);
+  const DeviceInfo& info = device_.info();
+  return {workspace.toWorld(hand.proxy_D),
+          live_.radius_W(),
+          workspace.world_per_device,
+          pressOf(firm_, live_.stiffness_N_m(), workspace.world_per_device),
+          {workspace.toWorld(info.workspace_min), workspace.toWorld(info.workspace_max)}};
 }
 
 Vec3 HandMover::clampToWorkspace(const Vec3& goal_D) const {
@@ -165,9 +176,9 @@ void HandMover::holdAside() {
   constexpr double kThere_m = 0.005;
   const Vec3 goal_D = above(aside_top_D_);
   hand_->setHandGoal(goal_D);
-  Vec3 finger_D = Vec3::Zero();
-  exchange_.finger_for_hand_D.read(finger_D);
-  aside_ = (finger_D - goal_D).norm() < kThere_m;
+  HandPlaces hand;
+  exchange_.hand.read(hand);
+  aside_ = (hand.finger_D - goal_D).norm() < kThere_m;
 }
 
 void HandMover::press(std::uint32_t buttons) {

@@ -13,6 +13,7 @@
 #include "device/hand_script.h"
 #include "device/simulated_hand.h"
 #include "scene/snapshot.h"
+#include "touch/exploration.h"
 #include "touch/live_settings.h"
 #include "touch/loop_exchange.h"
 
@@ -67,7 +68,8 @@ class HandMover {
   Commands takeCommands();
   void follow(const Commands& commands);
   void follow(std::optional<std::uint32_t> buttons, std::int64_t now_ns);
-  std::optional<Vec3> strokingGoal() const;
+  std::optional<Vec3> strokingGoal();
+  ExploringHand exploringHand();
   void turnAsScripted() const;
   Vec3 above(double top_D) const;
   void holdAside();
@@ -81,7 +83,8 @@ class HandMover {
   const SceneNow scene_;
   std::int64_t begin_ns_ = 0, pressed_ns_ = 0;
   std::atomic<bool> exploring_, firm_;
-  std::mutex mutex_;  // of the next; the real-time loops never see it
+  Exploration exploration_;  // of the thread
+  std::mutex mutex_;         // of the next; the real-time loops never see it
   Commands commands_;
   std::atomic<double> aside_top_D_{kFree};  // m; kFree: it is where it is commanded to be
   std::atomic<bool> aside_{false};          // it has come there

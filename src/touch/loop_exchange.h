@@ -19,10 +19,16 @@ struct TickMessage {
   float work_us = 0;
 };
 
+/// Where a simulated hand has come. Frame D.
+struct HandPlaces {
+  Vec3 finger_D = Vec3::Zero();
+  Vec3 proxy_D = Vec3::Zero();  ///< where there is none: the finger
+};
+
 /// Frame D.
 struct LoopExchange {
   Latest<Vec3> finger_D{Vec3::Zero()};            ///< servo to proxy
-  Latest<Vec3> finger_for_hand_D{Vec3::Zero()};   ///< servo to hand
+  Latest<HandPlaces> hand{HandPlaces{}};          ///< servo to hand
   Latest<TickMessage> ticks{TickMessage{}};       ///< proxy to servo
   Latest<HandPull> pulls{HandPull{}};             ///< to the servo, from a program beside HL
   Latest<RemoteInput> remotes{RemoteInput{}};     ///< to the servo, from a robot far away

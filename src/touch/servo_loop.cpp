@@ -46,7 +46,7 @@ ServoLoop::ServoLoop(const LoopParts& parts, const TouchSettings& settings, doub
 
 void ServoLoop::look() {
   const DeviceSample sample = reader_.look(monotonicNow_ns());
-  if (sample.status == DeviceStatus::kOk) parts_.exchange.finger_for_hand_D.write(sample.position);
+  if (sample.status == DeviceStatus::kOk) parts_.exchange.hand.write({sample.position, sample.position});
 }
 
 void ServoLoop::start(std::int64_t begin_ns) {
@@ -92,7 +92,8 @@ void ServoLoop::step() {
   parts_.exchange.makes_force.store(makesForce(step_.servo()), std::memory_order_relaxed);
   // Found while this step stood still: its force is an old one.
   if (watch_.stalled()) parts_.device.write(Vec3::Zero());
-  parts_.exchange.finger_for_hand_D.write(sample.position);
+  const ServoTarget& target = step_.target();
+  parts_.exchange.hand.write({sample.position, target.valid ? target.proxy_D : sample.position});
   if (settings_.remote.on) parts_.exchange.remote_ports.write(step_.servo().remote);
   publish({before, command, settings_, step_.target(), sample, out, 0}, now_ns);
 }
