@@ -107,6 +107,23 @@ test("the key and the scale bar lie beside everything else, at both sizes", asyn
   await page.click("#key > summary");
 });
 
+test("the open key leaves the middle of the view free, and takes no press, in a small window", async () => {
+  await page.click("#key > summary");
+  await resize(page, { width: 1000, height: 640 });
+  const seen = await page.evaluate(() => {
+    const key = document.getElementById("key")!.getBoundingClientRect();
+    const list = document.querySelector("#key ul")!.getBoundingClientRect();
+    const middle = window.__hl.project({ x: 0, y: 0, z: 0 });
+    const pressed = document.elementFromPoint(list.left + list.width / 2, list.top + list.height / 2)!.id;
+    return { top: key.top, middle: middle.y, pressed };
+  });
+  expect(seen.pressed).toBe("canvas");
+  expect(seen.top).toBeGreaterThan(seen.middle + 25);
+  await screenshot(page, "aids_key_small");
+  await resize(page, kSizes[0]);
+  await page.click("#key > summary");
+});
+
 /** Pixels in the middle of the window that are much darker than almost all around them. */
 async function speckles(): Promise<number> {
   const png = (await page.screenshot({ clip: { x: 340, y: 60, width: 560, height: 560 } })).toString("base64");

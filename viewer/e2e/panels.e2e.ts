@@ -297,9 +297,10 @@ test("without the server nothing takes input that only it could act on, and no n
   await server.close();
   await page.waitForFunction(() => window.__hl.link === "lost");
   expect(await enabled()).toEqual([]);
-  for (const id of ["#force", "#force-badge", "#penetration", "#contacts"]) {
-    expect(await page.textContent(id), id).toBe("–");
-  }
+  const measured = await page.evaluate(() =>
+    [...document.querySelectorAll("#force-badge, #readouts .live-only :is(output, td, dd)")].map((e) => e.textContent));
+  expect(measured.length).toBeGreaterThan(20);
+  expect(new Set(measured)).toEqual(new Set(["–"]));
   // What is of the page alone goes on.
   expect(await page.isEnabled("#edges")).toBe(true);
   await screenshot(page, "panels_lost");

@@ -23,7 +23,7 @@ export const kAnyEnding = "*";
 /** Where the lines go; Notices is one. */
 export interface FileLines {
   stand(cause: string, text: string | undefined, kind: "bad" | "warn" | "plain", cancel?: () => void): void;
-  report(text: string, bad: boolean, about: string): void;
+  report(text: string, bad: boolean, about: string, broke?: boolean): void;
   settle(about: string): void;
 }
 
@@ -42,6 +42,9 @@ export function shownName(name: string): string {
   const begin = letters.slice(0, kShownName_characters - 1 - kShownEnd_characters);
   return `${begin.join("")}…${letters.slice(-kShownEnd_characters).join("")}`;
 }
+
+/** What the user asked for ended with the connection: nothing is wrong with the file. */
+export class BrokenConnection extends Error {}
 
 /** The opener of the longest ending that fits, so that ".hl.json" goes before ".json". */
 export function openerOf(openers: readonly FileOpener[], name: string): FileOpener | undefined {
@@ -118,7 +121,9 @@ export class FileDrop {
       }
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
-      this.lines_.report((await isReadable(file)) ? why : unreadable(file.name), true, kCause);
+      const readable = await isReadable(file);
+      this.lines_.report(
+        readable ? why : unreadable(file.name), true, kCause, readable && error instanceof BrokenConnection);
     } finally {
       this.busy_ = false;
       this.lines_.stand(kCause, undefined, "plain");

@@ -6,7 +6,7 @@ import { padState } from "./gamepad";
 import type { Hello, State } from "./gen/hl_pb";
 import { HandInput } from "./hand_input";
 import type { LiveScene } from "./live_scene";
-import { MovedHands } from "./moved_hands";
+import { kSayAgain_ms, MovedHands } from "./moved_hands";
 import type { Pointing } from "./pointing";
 import type { SettingsChange } from "./protocol";
 import type { Stage } from "./stage";
@@ -14,6 +14,8 @@ import { TurnInput } from "./turn_input";
 
 export interface HandControlHooks {
   send(message: Uint8Array<ArrayBuffer>): void;
+  /** Says that the page is there. */
+  here(): void;
   /** The newest one. */
   state(): State | undefined;
   /** Whether the server is heard now: where a hand is, is known. */
@@ -32,6 +34,7 @@ export class HandControls {
   constructor(stage: Stage, live: LiveScene, pointing: Pointing, hooks: HandControlHooks) {
     this.hands = new MovedHands({
       send: (message) => hooks.send(message),
+      here: () => hooks.here(),
       state: () => hooks.state(),
       worldPerHand: () => pointing.worldPerHand,
       changed: () => {
@@ -46,6 +49,9 @@ export class HandControls {
       (turned, gripper_rad) => this.hands.turn(turned, gripper_rad), () => stage.camera.quaternion,
       () => this.hands.now?.stylus, () => this.buttons_.enabled,
     );
+    setInterval(() => this.hands.sayAgain(), kSayAgain_ms);
+    // Timers of a hidden page are too slow for that.
+    document.addEventListener("visibilitychange", () => document.hidden && this.release());
   }
 
   /** False while something else than the live session is shown: no hand moves. */

@@ -30,7 +30,7 @@ import { exploreText } from "./device_rows";
 import { OtherHands } from "./other_hands";
 import { ProbeView } from "./probe_view";
 import {
-  encodeIso, encodeRearm, encodeRecord, kProtocolVersion, type Incoming, type SettingsChange,
+  encodeHere, encodeIso, encodeRearm, encodeRecord, kProtocolVersion, type Incoming, type SettingsChange,
 } from "./protocol";
 import type { Bounds, Layout } from "./scene_messages";
 import { ScaleBar } from "./scale_bar";
@@ -92,6 +92,7 @@ class App {
   private readonly vibration_ = new VibrationAlarm();
   private readonly hands_: HandControls = new HandControls(this.stage_, this.live_, this.pointing_, {
     send: (message) => this.send(message),
+    here: () => this.connection_.send(encodeHere()),
     state: () => this.state_,
     heard: () => this.connection_.state === "live",
     changed: () => this.showChoice(),
@@ -129,6 +130,7 @@ class App {
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
     this.panel_.showTheme(this.theme_.choice);
     this.followWindow();
+    this.notices_.followEscape();
     const address = new URL("viewer", location.href);
     address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
     this.connection_ = new Connection(address.href, {
@@ -343,7 +345,9 @@ class App {
       silent: "The server is silent. Waiting for it…",
     };
     this.notices_.stand("link", texts[link]);
-    if (link !== "live") {
+    if (link === "live") {
+      this.notices_.connected();
+    } else {
       // What was heard last is not what is so now.
       this.stateFresh_ = false;
       this.hands_.input.cancel();

@@ -1,6 +1,6 @@
 // Opens a model file: sends it to the server, which reads it and puts it in the place of the scene.
 
-import { kAnyEnding, shownName, type FileOpener, type ReportProgress } from "./file_drop";
+import { BrokenConnection, kAnyEnding, shownName, type FileOpener, type ReportProgress } from "./file_drop";
 import { openedLine, type Opened } from "./opened_line";
 import { formatSi } from "./units";
 
@@ -57,7 +57,7 @@ export class ModelFile implements FileOpener {
         on.reject(new Error(request.responseText.trim() || `The server refused ${name} (${request.status}).`));
       }
     };
-    request.onerror = () => on.reject(new Error(`${name} could not be sent: the connection broke.`));
+    request.onerror = () => on.reject(new BrokenConnection(`${name} could not be sent: the connection broke.`));
     request.open("POST", `upload?name=${encodeURIComponent(name)}`);
     request.setRequestHeader("Content-Type", "application/octet-stream");
     request.send(file);

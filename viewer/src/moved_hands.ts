@@ -15,6 +15,8 @@ import { add, length, sub, type Vec } from "./vec";
 
 /** A server closes a page that sends 500 messages a second: the goals of all hands together stay below this. */
 const kGoals_Hz = 330;
+/** The server lets go after 0.8 s of silence. */
+export const kSayAgain_ms = 250;
 /** A finger this far from the goal that its hand was left with, m at the hand, has been moved by someone else. */
 const kElsewhere_D = 0.06;
 /** A finger this near to its proxy, m at the hand, has come up: some hundredths of a newton are left. */
@@ -24,6 +26,8 @@ const kRise_ms = 500;
 
 export interface MovedHandsHooks {
   send(message: Uint8Array<ArrayBuffer>): void;
+  /** Says that the page is there, also while nothing else is sent. */
+  here(): void;
   /** The newest one. */
   state(): State | undefined;
   /** Metres of the scene for one of the chosen hand. */
@@ -168,6 +172,18 @@ export class MovedHands {
     if (hold?.unsent !== true || now_ms - this.sent_ms_ < (1000 * (1 + hold.along.size)) / kGoals_Hz) return;
     this.sent_ms_ = now_ms;
     this.sendGoals(hold);
+  }
+
+  /**
+   * To be called every kSayAgain_ms: the server lets go of what a silent page holds. What is being moved is said again, so
+   * that a page that was held up takes hold again.
+   */
+  sayAgain(): void {
+    if (this.hold_ !== undefined) {
+      this.sendGoals(this.hold_);
+    } else if (this.left_.size > 0 || this.rising_ !== undefined) {
+      this.hooks_.here();
+    }
   }
 
   /** One hand alone lets its force go, and stays where its proxy is. Of several each keeps its goal. */

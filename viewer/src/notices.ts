@@ -1,7 +1,7 @@
 // Banners at the view. A keyed banner stands until its cause is gone; a line that is reported can be closed.
 
 import { element } from "./elements";
-import { lifeOf, stayingWith, type ReportedLine } from "./reported_lines";
+import { lifeOf, stayingConnected, stayingWith, type ReportedLine } from "./reported_lines";
 
 interface ReportedBanner extends ReportedLine {
   readonly banner: HTMLElement;
@@ -57,9 +57,12 @@ export class Notices {
     }
   }
 
-  /** A line with a button to close it. `about`: the user's action that it is about; reported_lines.ts: when it goes. */
-  report(text: string, bad: boolean, about?: string): void {
-    const line: ReportedBanner = { text, bad, about, banner: this.made(text, bad) };
+  /**
+   * A line with a button to close it. `about`: the user's action that it is about; `broke`: a connection did;
+   * reported_lines.ts: when it goes.
+   */
+  report(text: string, bad: boolean, about?: string, broke = false): void {
+    const line: ReportedBanner = { text, bad, about, broke, banner: this.made(text, bad) };
     this.keep([...stayingWith(this.reported_, line), line]);
     this.host_.append(line.banner);
     const life_ms = lifeOf(line);
@@ -71,6 +74,23 @@ export class Notices {
   /** It went well, and there is nothing to report: what was reported of it is past. */
   settle(about: string): void {
     this.keep(this.reported_.filter((line) => line.about !== about));
+  }
+
+  /** The server is heard again. */
+  connected(): void {
+    this.keep(stayingConnected(this.reported_));
+  }
+
+  /** Escape closes the newest line that can be closed, where nothing else has taken it. */
+  followEscape(): void {
+    window.addEventListener("keydown", (event) => {
+      const taken = event.defaultPrevented || event.repeat || element<HTMLDialogElement>("help").open ||
+        event.target instanceof HTMLSelectElement;
+      const newest = this.reported_.at(-1);
+      if (event.key === "Escape" && !taken && newest !== undefined) {
+        this.close(newest.banner);
+      }
+    });
   }
 
   private made(text: string, bad: boolean): HTMLElement {

@@ -6,9 +6,11 @@ import { countedParts, formatCount, formatSi, kThinSpace, nounFor } from "./unit
 export interface Opened {
   readonly name: string;
   readonly triangles: number;
-  /** Of clouds. Absent: there is none. */
+  /** Lines. Absent: there is none. */
+  readonly segments?: number;
+  /** Of clouds and of the model. Absent: there is none. */
   readonly points?: number;
-  /** All that is felt: triangles, points, and what surfaces without any are made of. Absent: there is nothing else. */
+  /** All that is felt: triangles, segments, points, and what surfaces without any are made of. Absent: there is nothing else. */
   readonly primitives?: number;
   readonly world_per_device: number;
   readonly warnings: readonly string[];
@@ -22,11 +24,15 @@ export function openedLine(name: string, opened: Omit<Opened, "name">): string {
     `${formatSi(opened.world_per_device * 1e-3, "m")} of the scene.${warnings}`;
 }
 
-function sizeOf({ triangles, points = 0, primitives = triangles + points }: Omit<Opened, "name">): string {
+function sizeOf(
+  { triangles, segments = 0, points = 0, primitives = triangles + segments + points }: Omit<Opened, "name">,
+): string {
   const counted = (count: number, noun: string) => `${formatCount(count)} ${nounFor(count, noun)}`;
-  if (points > 0) {
-    const rest = primitives - triangles - points;
-    return countedParts([[triangles, "triangle"], [points, "point"], [rest, "other primitive"]]);
+  if (segments + points > 0) {
+    const rest = Math.max(0, primitives - triangles - segments - points);
+    return countedParts([
+      [triangles, "triangle"], [segments, "segment"], [points, "point"], [rest, "other primitive"],
+    ]);
   }
   if (primitives <= triangles) {
     return counted(triangles, "triangle");

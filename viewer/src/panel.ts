@@ -15,6 +15,7 @@ import { describeEndings } from "./ticks_ended";
 import {
   countedParts, formatCount, formatFixed, formatScale, formatShortCount, formatSi, kThinSpace, kUnknown,
 } from "./units";
+import { softenedWords } from "./vibration";
 
 export interface PanelActions {
   settings(change: SettingsChange): void;
@@ -108,6 +109,7 @@ export class Panel {
     // A silent server gets what is sent when it goes on.
     for (const group of document.querySelectorAll<HTMLFieldSetElement>("fieldset.of-server")) {
       group.disabled = link === "connecting" || link === "lost";
+      group.title = group.disabled ? "Of the server, which is not there now" : "";
     }
     if (link !== "live") {
       element("safety").dataset.safety = "OFF";
@@ -115,8 +117,20 @@ export class Panel {
       element("fault").hidden = true;
       element("softened").hidden = true;
       setText("safety-state", "Not known");
-      ["force", "force-badge", "penetration", "contacts"].forEach((id) => setText(id, kUnknown));
+      this.showNothingMeasured();
     }
+  }
+
+  /** Every number that a server measures: what was heard last is not what is so now. */
+  private showNothingMeasured(): void {
+    for (const value of document.querySelectorAll("#readouts .live-only :is(output, td, dd)")) {
+      value.textContent = kUnknown;
+    }
+    for (const level of document.querySelectorAll<HTMLProgressElement>("#readouts .live-only progress")) {
+      level.value = 0;
+    }
+    ["force-badge", "bodies-count"].forEach((id) => setText(id, kUnknown));
+    ["ticks-ended", "proxy-missed", "servo-missed"].forEach((id) => setTitle(id, ""));
   }
 
   showHello(hello: Hello): void {
@@ -235,10 +249,7 @@ export class Panel {
     setText("energy-note", forceless ? "not felt: no force" : "total since the start");
     const limit_N_m = state.vibration?.limitNM ?? 0;
     element("softened").hidden = limit_N_m === 0;
-    setText(
-      "softened",
-      `The spring shook with the hand: it is held below ${formatCount(Math.round(limit_N_m))}${kThinSpace}N/m.`,
-    );
+    setText("softened", softenedWords(limit_N_m));
   }
 
   /** `held_N_m`: what the server holds it below, because it shook; 0: nothing. */

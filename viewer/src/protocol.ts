@@ -75,6 +75,11 @@ export function encodeHandGoal(position: Vec, device = 0): Uint8Array<ArrayBuffe
   return encode({ case: "handGoal", value: { position } }, device);
 }
 
+/** The page is there: what it has left in a simulated hand is held on. */
+export function encodeHere(): Uint8Array<ArrayBuffer> {
+  return toBinary(ViewerMessageSchema, create(ViewerMessageSchema)) as Uint8Array<ArrayBuffer>;
+}
+
 export function encodeRelease(device = 0): Uint8Array<ArrayBuffer> {
   return encode({ case: "release", value: {} }, device);
 }

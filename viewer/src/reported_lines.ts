@@ -6,6 +6,13 @@ export interface ReportedLine {
   readonly text: string;
   readonly bad: boolean;
   readonly about?: string | undefined;
+  /** Of a connection that broke: it is past when the server is heard again. */
+  readonly broke?: boolean;
+}
+
+/** Those of `shown` that stay when the server is heard again. */
+export function stayingConnected<Line extends ReportedLine>(shown: readonly Line[]): Line[] {
+  return shown.filter(({ broke }) => broke !== true);
 }
 
 /** Of all lines together; the oldest ones go first. */

@@ -1,6 +1,8 @@
 // Whether the force vibrates: it swings widely about its mean, again and again, as when the spring is stiffer than
 // device and hand can hold. One bump, a texture that is felt as a change of some tenths, or a slow push is none.
 
+import { formatCount, kThinSpace } from "./units";
+
 /** The last so many seconds are judged. */
 export const kVibrationWindow_s = 0.3;
 /** Swings below this, peak to peak, are no alarm. */
@@ -50,4 +52,10 @@ export class VibrationAlarm {
     }
     return this.reported_?.swing;
   }
+}
+
+/** Why the servo holds the spring below a limit, and what ends it: only in the open the limit goes up. */
+export function softenedWords(limit_N_m: number): string {
+  return `The spring shook with the hand: it is held below ${formatCount(Math.round(limit_N_m))}${kThinSpace}N/m. ` +
+    "Lift off: where nothing is touched it comes back, a tenth each second.";
 }

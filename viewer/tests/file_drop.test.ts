@@ -1,6 +1,6 @@
 // What opens a file, and the lines that the user reads on the way.
 import { describe, expect, test } from "vitest";
-import { FileDrop, kAnyEnding, openerOf, shownName, unopened, type FileOpener } from "../src/file_drop";
+import { BrokenConnection, FileDrop, kAnyEnding, openerOf, shownName, unopened, type FileOpener } from "../src/file_drop";
 
 function opener(what: string, endings: string[], open: FileOpener["open"] = async () => `${what} open`): FileOpener {
   return { what, endings, refusal: () => undefined, open };
@@ -16,8 +16,8 @@ class Lines {
     if (text !== undefined) this.stood.push(text);
   }
 
-  report(text: string, bad: boolean): void {
-    this.reported.push(`${bad ? "bad" : "good"}: ${text}`);
+  report(text: string, bad: boolean, _about?: string, broke = false): void {
+    this.reported.push(`${broke ? "broke" : bad ? "bad" : "good"}: ${text}`);
   }
 
   settle(about: string): void {
@@ -121,4 +121,11 @@ describe("a file that is given", () => {
     expect(drop.offered).toBe(true);
     expect(new FileDrop([closed], lines).offered).toBe(false);
   });
+});
+
+test("a connection that broke is told apart from a bad file", async () => {
+  const lines = new Lines();
+  const broken = opener("models", [kAnyEnding], () => Promise.reject(new BrokenConnection("the connection broke")));
+  await new FileDrop([broken], lines).take([fileOf("a.obj")]);
+  expect(lines.reported).toEqual(["broke: the connection broke"]);
 });

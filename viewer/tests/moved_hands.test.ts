@@ -21,15 +21,17 @@ describe("hands that the page moves", () => {
   let sent: ViewerMessage[];
   let state: State | undefined;
   let changes: number;
+  let beats: number;
   let hands: MovedHands;
   let now_ms: number;
 
   beforeEach(() => {
     sent = [];
     state = stateOf(3);
-    changes = now_ms = 0;
+    changes = beats = now_ms = 0;
     hands = new MovedHands({
       send: (message) => sent.push(fromBinary(ViewerMessageSchema, message)),
+      here: () => ++beats,
       state: () => state,
       worldPerHand: () => 1,
       changed: () => ++changes,
@@ -54,6 +56,22 @@ describe("hands that the page moves", () => {
     expect(goals()).toEqual([{ device: 0, ...kWay }, { device: 2, ...kWay }]);
     expect(hands.now?.finger).toEqual({ x: 0.2, y: 0, z: 0 });
     expect(changes).toBe(2);
+  });
+
+  it("are held on by saying it again, as a server lets go of what a silent page holds", () => {
+    hands.sayAgain();
+    hands.grab();
+    goal(kWay);
+    hands.sayAgain();
+    expect(goals()).toEqual([{ device: 0, ...kWay }, { device: 0, ...kWay }]);
+    expect(beats).toBe(0);
+    hands.letGo();  // keeps its goal, as there are several
+    hands.sayAgain();
+    expect(goals().length).toBe(2);
+    expect(beats).toBe(1);
+    hands.releaseAll();
+    hands.sayAgain();
+    expect(beats).toBe(1);
   });
 
   it("are the next simulated one in turn, past those that persons hold", () => {

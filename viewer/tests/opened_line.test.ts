@@ -27,3 +27,10 @@ test("of clouds points are counted", () => {
   expect(line(1, 1)).toBe("a: 1\u00a0triangle, 1\u00a0point");
   expect(line(0, 5, 8)).toBe("a: 5\u00a0points, 3\u00a0other primitives");
 });
+
+test("counts of lines and bare vertices agree with what is felt", () => {
+  const of = (counts: { triangles: number; segments: number; points: number; primitives: number }) =>
+    openedLine("a", { ...counts, world_per_device: 1, warnings: [] }).split(";")[0];
+  expect(of({ triangles: 0, segments: 0, points: 1, primitives: 1 })).toBe("a: 1\u00a0point");
+  expect(of({ triangles: 2, segments: 3, points: 0, primitives: 5 })).toBe("a: 2\u00a0triangles, 3\u00a0segments");
+});

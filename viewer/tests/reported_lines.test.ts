@@ -1,6 +1,6 @@
 // Which reported lines stay.
 import { expect, test } from "vitest";
-import { lifeOf, stayingWith, type ReportedLine } from "../src/reported_lines";
+import { lifeOf, stayingConnected, stayingWith, type ReportedLine } from "../src/reported_lines";
 
 const good = (text: string, about: string): ReportedLine => ({ text, bad: false, about });
 const bad = (text: string, about: string): ReportedLine => ({ text, bad: true, about });
@@ -29,4 +29,9 @@ test("only what went well goes by itself, and a long line later", () => {
   expect(lifeOf(ofServer("x"))).toBeUndefined();
   expect(lifeOf(good("a long line", "file"))).toBeGreaterThan(lifeOf(good("short", "file"))!);
   expect(lifeOf(good("", "file"))).toBeGreaterThanOrEqual(5000);
+});
+
+test("what is reported of a broken connection goes when the server is heard again, and nothing else does", () => {
+  const lines = [bad("a is broken", "file"), { ...bad("b could not be sent", "file"), broke: true }, ofServer("hello")];
+  expect(stayingConnected(lines).map(({ text }) => text)).toEqual(["a is broken", "hello"]);
 });

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { swingOf, VibrationAlarm } from "../src/vibration";
+import { softenedWords, swingOf, VibrationAlarm } from "../src/vibration";
 
 /** One window of samples at 1 kHz from `from_s` on. */
 function window(force: (time_s: number) => number, from_s = 0): [number[], number[]] {
@@ -31,4 +31,9 @@ test("is reported for a second after it has ceased", () => {
   expect(alarm.judge(...window(sine(80, 3)))).toBeDefined();
   expect(alarm.judge(...window(() => 1, 0.5))).toBeDefined();
   expect(alarm.judge(...window(() => 1, 2))).toBeUndefined();
+});
+
+test("what was softened names the limit, and what brings it back", () => {
+  expect(softenedWords(409.6)).toBe("The spring shook with the hand: it is held below 410\u202fN/m. " +
+    "Lift off: where nothing is touched it comes back, a tenth each second.");
 });

@@ -190,6 +190,7 @@ export class Timeline {
       return;
     }
     if (event.key === "Escape") {
+      event.preventDefault();
       this.close();
     } else if (event.key === " " && !isPressable(event.target)) {
       event.preventDefault();
