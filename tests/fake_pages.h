@@ -17,7 +17,8 @@ inline FeedCallbacks fakePages(std::function<void(const std::string&)> receive =
       return std::exchange(*sent, true) ? nullptr : std::make_shared<const std::string>("scene");
     });
   };
-  return {[] { return std::string("hello"); }, sceneOnce, [] { return std::string("state"); }, std::move(receive)};
+  return {[] { return std::string("hello"); }, sceneOnce, [] { return std::string("state"); },
+          [receive = std::move(receive)](PageNumber, const std::string& bytes) { receive(bytes); }};
 }
 
 }  // namespace hl::test

@@ -23,7 +23,10 @@ namespace websocket = beast::websocket;
 class PageFeed::Membership {
  public:
   Membership(PageFeed& feed, PagePointer page) : feed_(feed), page_(std::move(page)) { feed_.pages_.insert(page_); }
-  ~Membership() { feed_.pages_.erase(page_); }
+  ~Membership() {
+    feed_.pages_.erase(page_);
+    if (feed_.callbacks_.gone) guarded([this] { feed_.callbacks_.gone(page_->number); });
+  }
   Membership(const Membership&) = delete;
   Membership& operator=(const Membership&) = delete;
 
@@ -71,7 +74,7 @@ void PageFeed::stop() {
 }
 
 asio::awaitable<void> PageFeed::serve(ConnectionPointer connection, http::request<http::string_body> request) {
-  auto page = std::make_shared<Page>(connection);
+  auto page = std::make_shared<Page>(connection, ++last_page_);
   page->stream.setTimeout(websocket::stream_base::timeout::suggested(beast::role_type::server));
   page->stream.setReadLimit(limits_.page_message_bytes);
   page->stream.setText(false);
@@ -109,8 +112,9 @@ asio::awaitable<void> PageFeed::listen(PagePointer page) {
       co_await page->stream.close({websocket::close_code::policy_error, "too many messages"});
       co_return;
     }
-    co_await doOn(worker_,
-                  [&] { return guarded([&] { callbacks_.receive(beast::buffers_to_string(buffer.data())); }); });
+    co_await doOn(worker_, [&] {
+      return guarded([&] { callbacks_.receive(page->number, beast::buffers_to_string(buffer.data())); });
+    });
   }
 }
 

@@ -42,8 +42,10 @@ class PageFeed {
 
  private:
   struct Page {
-    explicit Page(ConnectionPointer owner) : connection(std::move(owner)), stream(connection->stream) {}
+    Page(ConnectionPointer owner, PageNumber its_number)
+        : connection(std::move(owner)), number(its_number), stream(connection->stream) {}
     ConnectionPointer connection;
+    PageNumber number;
     Websocket stream;
     SceneSource scene;  // on the worker
     bool busy = true;   // a write is under way
@@ -68,6 +70,7 @@ class PageFeed {
   Traffic& traffic_;
   boost::asio::steady_timer timer_;
   std::set<PagePointer> pages_;
+  PageNumber last_page_ = 0;
   bool feeding_ = false, stopped_ = false;
 };
 

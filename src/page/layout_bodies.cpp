@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/utf8.h"
 #include "page/wire_bytes.h"
 #include "session/state_messages.h"
 
@@ -38,7 +39,7 @@ void describeBody(const RigidBody& body, proto::PlacedMesh& placed) {
 
 void describeJoint(const JointSpec& joint, proto::Joint& out) {
   const JointForces& along = joint.along;
-  out.set_name(joint.name);
+  out.set_name(printable(joint.name));
   out.set_kind(static_cast<proto::JointKind>(joint.kind));
   toProto(joint.anchor_W, *out.mutable_anchor());
   if (joint.kind == JointKind::kDistance) toProto(joint.anchor_b_W, *out.mutable_anchor_b());

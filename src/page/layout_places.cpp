@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/utf8.h"
 #include "session/state_messages.h"
 
 namespace hl {
@@ -25,7 +26,7 @@ bool samePlaced(const std::vector<Placed>& a, const std::vector<Placed>& b) {
 
 template <typename Spec, typename Message>
 void describePlace(const Spec& spec, Message& out) {
-  out.set_name(spec.name);
+  out.set_name(printable(spec.name));
   for (const Vec3& point : spec.points) out.mutable_points()->Add(point.data(), point.data() + 3);
   if (spec.normal) toProto(*spec.normal, *out.mutable_normal());
 }

@@ -58,8 +58,8 @@ void PageScene::addPlacement(const MeshPlacement& place, const Instance& instanc
   placed.set_object(place.object);
   placed.set_name(place.name);
   const RigidBody* const body = place.session == 0 ? instance.body.get() : nullptr;
-  if (place.label) placed.set_label(place.label->name);
-  if (!place.label && body != nullptr) placed.set_label(validUtf8(body->name));  // of its file
+  if (place.label) placed.set_label(printable(place.label->name));
+  if (!place.label && body != nullptr) placed.set_label(printable(body->name));  // of its file
   if (place.label && place.label->colour) placed.set_colour(place.label->colour->data(), place.label->colour->size());
   addMaterials(*place.surfaces, placed);
 }
@@ -119,7 +119,7 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
   proto::SceneLayout& out = *message.mutable_layout();
   layout_ = Layout{++last_layout_, shown_->name, scale, shown_placements_, {}, {}, now_ns};
   out.set_number(layout_->number);
-  out.set_name(validUtf8(layout_->name));
+  out.set_name(printable(layout_->name));
   out.set_proxy_radius(scale.radius_W);
   out.set_world_per_device(scale.world_per_device);
   if (const Box bounds = boundsAt(*shown_, now_ns); !bounds.empty()) {

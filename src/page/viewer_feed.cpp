@@ -7,8 +7,10 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/utf8.h"
 #include "io/decode_volumes.h"
 #include "io/vec_messages.h"
+#include "page/page_holds.h"
 #include "page/page_scene.h"
 #include "session/hand_messages.h"
 #include "session/state_messages.h"
@@ -36,7 +38,7 @@ std::string hello(const TouchSession& session, const ViewerFeedSettings& setting
   out.set_protocol_version(kProtocolVersion);
   out.set_server_version(version);
   out.set_upload_bytes(settings.upload_bytes);
-  out.set_scene_name(session.snapshot()->name);
+  out.set_scene_name(printable(session.snapshot()->name));
   toProto(session, *out.mutable_device());
   if (!settings.others.empty()) toProto(session, *out.add_devices());
   for (const TouchSession* other : settings.others) toProto(*other, *out.add_devices());
@@ -130,6 +132,30 @@ void setShared(const ShareView& view, proto::State& out) {
   for (const proto::OtherDevice& hand : view.hands) *out.add_remote() = hand;
 }
 
+// The devices that pages move, and who of them holds what.
+class PageHands {
+ public:
+  PageHands(TouchSession& first, const std::vector<TouchSession*>& others)
+      : sessions_(others), holds_([this](std::size_t device, PageHolds::What what) { letGo(device, what); }) {
+    sessions_.insert(sessions_.begin(), &first);
+  }
+
+  TouchSession* device(std::size_t number) const { return number < sessions_.size() ? sessions_[number] : nullptr; }
+  PageHolds& holds() { return holds_; }
+
+ private:
+  void letGo(std::size_t device, PageHolds::What what) const {
+    if (what == PageHolds::What::kHand) {
+      sessions_[device]->release();
+    } else {
+      sessions_[device]->press(0);
+    }
+  }
+
+  std::vector<TouchSession*> sessions_;
+  PageHolds holds_;
+};
+
 std::string state(TouchSession& session, const ViewerFeedSettings& settings, PageScene& scene) {
   ServoView servo;
   ProxyView proxy;
@@ -183,11 +209,26 @@ void apply(const SetIso& set_iso, const proto::IsoChange& change) {
   }
 }
 
-// A message that does not parse or asks for what does not exist changes nothing.
-void receive(TouchSession& first, const ViewerFeedSettings& settings, const std::string& bytes) {
+// What moves a hand, or presses its buttons, and who does.
+void hold(PageHands& hands, PageNumber page, const proto::ViewerMessage& message) {
+  using What = PageHolds::What;
+  const bool presses = message.has_press() && message.press().buttons() != 0;
+  if (message.has_hand_goal()) hands.holds().take(page, message.device(), What::kHand);
+  if (message.has_release()) hands.holds().leave(message.device(), What::kHand);
+  if (presses) hands.holds().take(page, message.device(), What::kButtons);
+  if (message.has_press() && !presses) hands.holds().leave(message.device(), What::kButtons);
+}
+
+// A message that does not parse or asks for what does not exist changes nothing; an empty one says that the page is
+// there.
+void receive(PageHands& hands, const ViewerFeedSettings& settings, PageNumber page, const std::string& bytes) {
+  hands.holds().hear(page, monotonicNow_ns());
   proto::ViewerMessage message;
-  if (!message.ParseFromString(bytes) || message.device() > settings.others.size()) return;
-  TouchSession& session = message.device() == 0 ? first : *settings.others[message.device() - 1];
+  if (!message.ParseFromString(bytes)) return;
+  TouchSession* const device = hands.device(message.device());
+  if (device == nullptr) return;
+  hold(hands, page, message);
+  TouchSession& session = *device;
   switch (message.body_case()) {
     case proto::ViewerMessage::kHandGoal:
       session.setHandGoal(vecOf(message.hand_goal().position()));
@@ -230,10 +271,18 @@ FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, 
   const auto open_page = [scene] {
     return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
   };
-  return {[&session, kept, version] { return hello(session, *kept, version); }, open_page,
-          [&session, kept, scene] { return state(session, *kept, *scene); },
-          [&session, kept](const std::string& bytes) { receive(session, *kept, bytes); },
-          [kept](std::uint32_t owner) { return kept->recordings ? kept->recordings->open(owner) : nullptr; }};
+  const auto hands = std::make_shared<PageHands>(session, kept->others);
+  FeedCallbacks feed;
+  feed.hello = [&session, kept, version] { return hello(session, *kept, version); };
+  feed.scene = open_page;
+  feed.state = [&session, kept, scene, hands] {
+    hands->holds().letGoOfSilent(monotonicNow_ns());
+    return state(session, *kept, *scene);
+  };
+  feed.receive = [kept, hands](PageNumber page, const std::string& bytes) { receive(*hands, *kept, page, bytes); };
+  feed.gone = [hands](PageNumber page) { hands->holds().gone(page); };
+  feed.recording = [kept](std::uint32_t owner) { return kept->recordings ? kept->recordings->open(owner) : nullptr; };
+  return feed;
 }
 
 }  // namespace hl

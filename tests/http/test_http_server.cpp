@@ -25,7 +25,7 @@ class HttpServerTest : public testing::Test {
   HttpServerTest()
       : server_({0, "/nonexistent", 200},
                 {[] { return std::string("hello"); }, [] { return sceneOnce(); }, [] { return std::string("state"); },
-                 [this](const std::string& m) { received_ += m.size(); },
+                 [this](PageNumber, const std::string& m) { received_ += m.size(); }, [this](PageNumber) { ++gone_; },
                  [](std::uint32_t owner) { return owner == kOwner ? recording() : nullptr; }}) {
     server_.start();
   }
@@ -81,7 +81,7 @@ class HttpServerTest : public testing::Test {
 
   static constexpr std::uint32_t kOwner = 4'000'000'000;
   asio::io_context context_;
-  std::atomic<std::size_t> received_{0};
+  std::atomic<std::size_t> received_{0}, gone_{0};
   HttpServer server_;
 };
 

@@ -160,11 +160,11 @@ TEST_F(SeveralDevices, AreAllSentToPages) {
   proto::ViewerMessage rearm;
   rearm.mutable_rearm();
   rearm.set_device(7);
-  feed.receive(rearm.SerializeAsString());
+  feed.receive(1, rearm.SerializeAsString());
   EXPECT_EQ(servo(1).safety, SafetyState::kFault);
   rearm.set_device(1);
   waitFor([&] {
-    feed.receive(rearm.SerializeAsString());
+    feed.receive(1, rearm.SerializeAsString());
     return servo(1).safety == SafetyState::kOn;
   });
 }

@@ -91,7 +91,7 @@ TEST(TouchSession, AButtonHeldOnThePageIsADeadMansSwitchAndComesUpWhenThePageHas
   proto::ViewerMessage message;
   message.mutable_press()->set_buttons(1U << 2);
   test::waitFor([&] {
-    page.receive(message.SerializeAsString());
+    page.receive(1, message.SerializeAsString());
     const ServoView servo = armedServoOf(session);
     return servo.safety == SafetyState::kOn && servo.buttons == 1U << 2;
   });
@@ -117,7 +117,7 @@ TEST(TouchSession, APageTurnsTheStylusAndSeesHowItIsTurned) {
   message.mutable_hand_turn()->set_gripper_rad(0.3);
   proto::Stylus shown;
   test::waitFor([&] {
-    page.receive(message.SerializeAsString());
+    page.receive(1, message.SerializeAsString());
     proto::ServerMessage state;
     if (!state.ParseFromString(page.state()) || !state.state().has_stylus()) return false;
     shown = state.state().stylus();
@@ -134,7 +134,7 @@ TEST(TouchSession, APageTurnsTheStylusAndSeesHowItIsTurned) {
   EXPECT_LT(turnOf(shown.rotation()).angularDistance(pages.stylus.turned), 0.005);
   for (const double part : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
     turned.set_x(part), turned.set_y(part), turned.set_z(part), turned.set_w(part);
-    page.receive(message.SerializeAsString());
+    page.receive(1, message.SerializeAsString());
   }
   test::waitFor(settled);
   EXPECT_LT(pages.stylus.turned.angularDistance(goal), 0.005);
@@ -217,7 +217,7 @@ TEST(TouchSession, BadCommandsChangeNothing) {
   session.setStiffness(1e9);
   EXPECT_EQ(session.stiffness_N_m(), session.deviceInfo().stiffness_max_N_m);
   FeedCallbacks feed = makeViewerFeed(session, "test");
-  feed.receive("\xff\xff garbage");
+  feed.receive(1, "\xff\xff garbage");
   EXPECT_FALSE(feed.hello().empty());
 }
 

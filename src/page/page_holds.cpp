@@ -1,0 +1,42 @@
+#include "page/page_holds.h"
+
+namespace hl {
+
+void PageHolds::hear(PageNumber page, std::int64_t now_ns) {
+  const std::lock_guard lock(mutex_);
+  heard_ns_[page] = now_ns;
+}
+
+void PageHolds::take(PageNumber page, std::size_t device, What what) {
+  const std::lock_guard lock(mutex_);
+  holders_[{device, what}] = page;
+}
+
+void PageHolds::leave(std::size_t device, What what) {
+  const std::lock_guard lock(mutex_);
+  holders_.erase({device, what});
+}
+
+void PageHolds::gone(PageNumber page) {
+  const std::lock_guard lock(mutex_);
+  letGoOf(page);
+  heard_ns_.erase(page);
+}
+
+void PageHolds::letGoOfSilent(std::int64_t now_ns) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [page, heard_ns] : heard_ns_) {
+    if (now_ns - heard_ns > kSilent_ns) letGoOf(page);
+  }
+}
+
+void PageHolds::letGoOf(PageNumber page) {
+  std::erase_if(holders_, [&](const auto& hold) {
+    const auto& [place, holder] = hold;
+    if (holder != page) return false;
+    let_go_(place.first, place.second);
+    return true;
+  });
+}
+
+}  // namespace hl
