@@ -1,6 +1,7 @@
 #include "base/utf8.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace hl {
 
@@ -49,10 +50,23 @@ std::string validUtf8(std::string text) {
   return text;
 }
 
+bool isHidden(std::uint32_t point) {
+  struct Range {
+    std::uint32_t first, last;
+  };
+  // Controls; the Arabic letter mark; the Mongolian vowel separator; the space of no width; marks, embeddings,
+  // overrides and isolates of direction, with the ends of lines and paragraphs; invisible operators; the byte order
+  // mark; marks of annotations; tags.
+  constexpr Range kHidden[] = {{0, 0x1f},        {0x7f, 0x9f},     {0x61c, 0x61c},    {0x180e, 0x180e},
+                               {0x200b, 0x200b}, {0x200e, 0x200f}, {0x2028, 0x202e},  {0x2060, 0x206f},
+                               {0xfeff, 0xfeff}, {0xfff9, 0xfffb}, {0xe0001, 0xe007f}};
+  return std::any_of(std::begin(kHidden), std::end(kHidden),
+                     [point](const Range& range) { return point >= range.first && point <= range.last; });
+}
+
 std::string printable(std::string_view text) {
   std::vector<std::uint32_t> points = codePointsOf(text);
-  const auto is_control = [](std::uint32_t point) { return point < 0x20 || (point >= 0x7f && point < 0xa0); };
-  std::replace_if(points.begin(), points.end(), is_control, '?');
+  std::replace_if(points.begin(), points.end(), isHidden, '?');
   return utf8Of(points);
 }
 

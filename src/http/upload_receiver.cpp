@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/utf8.h"
 #include "monitor/event_log.h"
 
 namespace hl {
@@ -124,7 +125,7 @@ asio::awaitable<HttpResponse> UploadReceiver::take(ConnectionPointer connection,
     refusal = co_await receive(connection, body, file);
     if (!refusal) answer = co_await doOn(worker_, [&] { return settings_.open(file.descriptor(), name); });
   } catch (const Error& error) {
-    refusal = UploadRefusal{http::status::unprocessable_entity, UploadResult::kUnreadable, error.what()};
+    refusal = UploadRefusal{http::status::unprocessable_entity, UploadResult::kUnreadable, printable(error.what())};
   } catch (const std::bad_alloc&) {
     refusal = UploadRefusal{http::status::insufficient_storage, UploadResult::kFailed,
                             "the server has no memory for this file"};

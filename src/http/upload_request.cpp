@@ -26,7 +26,7 @@ std::string uploadName(std::string_view target) {
   if (slash != std::string::npos) name.erase(0, slash + 1);
   const bool control = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
   if (control || name == "." || name == ".." || name.size() > kLongestName_bytes || !isUtf8(name)) return {};
-  return name;
+  return printable(name);  // without what would turn the direction of the text that it stands in
 }
 
 UploadRefusal tooLarge(std::uint64_t limit_bytes) {

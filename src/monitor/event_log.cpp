@@ -5,9 +5,11 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "base/guarded_thread.h"
+#include "base/utf8.h"
 
 namespace hl {
 
@@ -40,25 +42,25 @@ spdlog::level::level_enum levelOf(LogLevel level) {
 // A bare word stays as it is; all else is quoted, so that a line has no two meanings and stays one line.
 std::string keyValueText(std::string_view value) {
   const bool bare = !value.empty() && value.find_first_of(" \"=\\") == std::string_view::npos;
-  for (const char c : value) {
-    if (static_cast<unsigned char>(c) < 0x20) return jsonString(value);
-  }
+  const std::vector<std::uint32_t> points = codePointsOf(value);
+  if (std::any_of(points.begin(), points.end(), isHidden)) return jsonString(value);
   return bare ? std::string(value) : jsonString(value);
+}
+
+// As JSON has it: beyond 16 bits in two halves.
+std::string escaped(std::uint32_t point) {
+  constexpr std::uint32_t kBeyond = 0x10000;
+  if (point < kBeyond) return fmt::format("\\u{:04x}", point);
+  return fmt::format("\\u{:04x}\\u{:04x}", 0xd800 + (point - kBeyond) / 0x400, 0xdc00 + (point - kBeyond) % 0x400);
 }
 
 }  // namespace
 
 std::string jsonString(std::string_view text) {
   std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
+  for (const std::uint32_t point : codePointsOf(text)) {
+    if (point == '"' || point == '\\') out += '\\';
+    out += isHidden(point) ? escaped(point) : utf8Of({point});
   }
   return out + '"';
 }

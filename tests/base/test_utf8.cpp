@@ -56,6 +56,12 @@ TEST(Utf8, ALineForATerminalHasNoControlCharacters) {
   EXPECT_EQ(printable("a\x1b[31m\r\n\t\x7f.\xc2\x9b\xfc"), "a?[31m????.??");
   EXPECT_EQ(printable("Maße: 3 × 4 µm"), "Maße: 3 × 4 µm");
   EXPECT_EQ(printable(""), "");
+  // Those that turn the direction of what follows, or are not seen.
+  for (const std::uint32_t point : {0x202aU, 0x202bU, 0x202cU, 0x202dU, 0x202eU, 0x2066U, 0x2067U, 0x2068U, 0x2069U,
+                                    0x200eU, 0x200fU, 0x61cU, 0xfeffU, 0x200bU, 0x2028U, 0x2029U, 0x2060U, 0xe0041U})
+    EXPECT_EQ(printable("a" + utf8Of({point}) + "b"), "a?b") << point;
+  const std::string joined = utf8Of({0x915, 0x94d, 0x200d, 0x937});  // a letter of Devanagari, as it is written
+  EXPECT_EQ(printable(joined), joined);
 }
 
 }  // namespace

@@ -229,6 +229,10 @@ TEST(EventLog, OneLineInEitherForm) {
   EXPECT_EQ(formatEvent(LogFormat::kJson, "session_end", fields),
             "\"event\":\"session_end\",\"peer\":\"[::1]:5000\",\"reason\":\"two words\","
             "\"name\":\"a\\\"b\\\\c\\u000ad\\u0001\",\"none\":\"\"");
+  // A name that would turn the direction of the line.
+  const LogFields turned = {{"name", "a\xe2\x80\xaez\xf3\xa0\x81\x81"}};
+  EXPECT_EQ(formatEvent(LogFormat::kKeyValue, "upload", turned), "event=upload name=\"a\\u202ez\\udb40\\udc41\"");
+  EXPECT_EQ(jsonString("é\xff"), "\"é?\"");
 }
 
 }  // namespace

@@ -277,6 +277,7 @@ TEST(UploadName, IsTheLastPartAndNamesNothing) {
   EXPECT_EQ(uploadName("/upload?name=..%2F..%2Fetc%2Fpasswd"), "passwd");
   EXPECT_EQ(uploadName("/upload?name=C%3A%5Ca.obj"), "a.obj");
   EXPECT_EQ(uploadName("/upload?name=%E2%82%AC.obj"), "\xe2\x82\xac.obj");
+  EXPECT_EQ(uploadName("/upload?name=a%E2%80%AEjbo.obj"), "a?jbo.obj");  // U+202E turns what follows
   EXPECT_EQ(uploadName("/upload?name=%E2%82.obj"), "");
   EXPECT_EQ(uploadName("/upload?name=a%2F"), "");
   EXPECT_EQ(uploadName("/upload?name=a%"), "");
