@@ -20,6 +20,7 @@
 #include "page/viewer_feed.h"
 #include "record/page_recordings.h"
 #include "record/recorder.h"
+#include "scene_report.h"
 #include "serving.h"
 #include "session/touch_server.h"
 #include "standard_streams.h"
@@ -65,15 +66,15 @@ void printVibration(TouchSession& session) {
   session.views(servo, proxy);
   const VibrationView& vibration = servo.vibration;
   if (vibration.alarms == 0) return;
-  tell("the spring and the hand shook {} times, and it was softened", vibration.alarms);
+  tell("the spring and the hand shook {}, and it was softened", counted(vibration.alarms, "time"));
   if (vibration.limit_N_m > 0) tell("; at the end below {:.0f} N/m", vibration.limit_N_m);
   tell("\n");
 }
 
 void printBeginning(const std::string& scene, const TouchSession& session) {
-  tell("{}: {} primitives; device: {}{}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n", printable(scene),
-       session.snapshot()->primitives, headOf(session.label().name), session.deviceInfo().name, session.servoRate_Hz(),
-       session.workspace().world_per_device);
+  tell("{}: {}; device: {}{}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n", printable(scene),
+       counted(session.snapshot()->primitives, "primitive"), headOf(session.label().name), session.deviceInfo().name,
+       session.servoRate_Hz(), session.workspace().world_per_device);
   if (!session.grant().why.empty())
     tell("the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
 }

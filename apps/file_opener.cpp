@@ -24,21 +24,23 @@ constexpr std::size_t kMaxWarnings = 5;  // that a page is sent
 
 std::string answerOf(const Snapshot& scene, std::span<const std::string> given, double world_per_device) {
   // A surfel is four triangles: the user has given one point.
-  std::uint64_t triangles = 0, points = 0, primitives = scene.primitives;
+  std::uint64_t triangles = 0, segments = 0, points = 0, primitives = scene.primitives;
   for (const Instance& instance : scene.instances) {
     if (const auto* cloud = dynamic_cast<const PointCloud*>(instance.shape->source.get()); cloud != nullptr) {
       points += cloud->points()->size();
       primitives -= instance.shape->elements() - cloud->points()->size();
     } else {
       triangles += trianglesOf(*instance.shape);
+      segments += instance.shape->model.segments.size();
+      points += instance.shape->model.points.size();
     }
   }
   std::string warnings;
   for (std::size_t i = 0; i < std::min(given.size(), kMaxWarnings); ++i)
-    warnings += (i > 0 ? "," : "") + jsonString(given[i]);
+    warnings += (i > 0 ? "," : "") + jsonString(printable(given[i]));
   return fmt::format(
-      R"({{"name":{},"triangles":{},"points":{},"primitives":{},"world_per_device":{:.6g},"warnings":[{}]}})",
-      jsonString(scene.name), triangles, points, primitives, world_per_device, warnings);
+      R"({{"name":{},"triangles":{},"segments":{},"points":{},"primitives":{},"world_per_device":{:.6g},"warnings":[{}]}})",
+      jsonString(printable(scene.name)), triangles, segments, points, primitives, world_per_device, warnings);
 }
 
 // How a bare model is shaded, and a scene file by itself, where the user has not said it.
@@ -70,7 +72,8 @@ std::string FileOpener::open(int descriptor, const std::string& name) {
   TouchSession& session = touch_.device();
   if (smooth_) shade(session, !isSceneFile("scene" + sentEndingOf(name)));
   const double scale = session.workspace().world_per_device;
-  tell("{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", printable(name), scene->primitives, scale);
+  tell("{}: {}; 1 mm of the hand is {:.4g} mm of the scene\n", printable(name), counted(scene->primitives, "primitive"),
+       scale);
   const std::vector<std::string> warnings = warningsOf(*scene);
   for (const std::string& warning : warnings) tell("{}: {}\n", printable(name), printable(warning));
   return answerOf(*scene, warnings, scale);

@@ -11,8 +11,12 @@ std::vector<std::string> warningsOf(const Snapshot& snapshot) {
 }
 
 std::uint64_t trianglesOf(const Shape& shape) {
-  const bool counted = shape.source && shape.source->kind() == PrimitiveKind::kTriangle;
-  return counted ? shape.elements() : shape.model.triangles.size();
+  const bool of_source = shape.source && shape.source->kind() == PrimitiveKind::kTriangle;
+  return of_source ? shape.elements() : shape.model.triangles.size();
+}
+
+std::string counted(std::uint64_t count, const char* noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 }  // namespace hl

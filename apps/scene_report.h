@@ -13,5 +13,7 @@ namespace hl {
 std::vector<std::string> warningsOf(const Snapshot& snapshot);
 /// Triangles of a mesh, or of a surface whose primitives are triangles.
 std::uint64_t trianglesOf(const Shape& shape);
+/// "1 primitive", "2 primitives".
+std::string counted(std::uint64_t count, const char* noun);
 
 }  // namespace hl

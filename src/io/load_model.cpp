@@ -1,11 +1,13 @@
 #include "io/load_model.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "base/error.h"
 #include "base/open_file.h"
@@ -93,13 +95,28 @@ SceneModel readByProgram(const std::string& path, const std::string& ending, con
   return readCad(file, path, {ending, options.cad}, options.limits, given_up, options.progress);
 }
 
+// Both readers keep coordinates as float, whatever the file has: far from the origin few digits are left for the shape.
+void warnOfLostDigits(Model& model) {
+  constexpr double kCoarse = 1e-4;  // of the size
+  Box bounds;
+  for (const Vec3& p : model.positions) bounds.extend(p);
+  if (model.triangles.size() + model.segments.size() == 0 || bounds.empty()) return;
+  const double farthest = std::max(bounds.max.cwiseAbs().maxCoeff(), bounds.min.cwiseAbs().maxCoeff());
+  const double spacing = std::numeric_limits<float>::epsilon() * farthest, size = bounds.size().norm();
+  if (!(spacing > kCoarse * size)) return;
+  model.warnings.push_back(
+      fmt::format("it lies {:.2g} m from the origin, where coordinates are read to {:.2g} m only, and is {:.2g} m in "
+                  "size: move it to the origin before it is saved",
+                  bounds.centre().norm(), spacing, size));
+}
+
 void makeSound(Model& model) {
   makePointsOfBareVertices(model);
   dropBadIndices(model);
   keepFinite(model.normals, model.positions.size());
   keepFinite(model.texcoords, model.positions.size());
   dropPlainAppearance(model.appearance);
-  // Both readers keep coordinates as float, whatever the file has.
+  warnOfLostDigits(model);
   model.reading = {weldVertices(model), true};
 }
 
@@ -112,6 +129,7 @@ bool readsEnding(const std::string& ending) {
 
 std::string cannotBeRead(const std::string& ending) {
   if (const std::string advice = cloudAdvice(ending); !advice.empty()) return advice;
+  if (ending.size() <= 1) return "has no ending (as .obj), by which its format is known";
   return "files ending in '" + ending +
          "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, step, iges, brep, tif, hgt, asc, png, npy, nii, nrrd, "
          "dcm, vdb, las, pcd, xyz and others can";

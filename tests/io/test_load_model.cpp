@@ -48,6 +48,24 @@ TEST(LoadModel, ObjKeepsPolygonsNormalsAndTexcoords) {
   EXPECT_NEAR(model.texcoords[corner].x(), 0.25, 1e-6);
 }
 
+// A square of 1 m whose corner is there.
+std::string squareAt(const Vec3& at) {
+  std::string text;
+  for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)})
+    text += fmt::format("v {} {} {}\n", at.x() + corner.x(), at.y() + corner.y(), at.z() + corner.z());
+  return text + "f 1 2 3 4\n";
+}
+
+TEST(LoadModel, DigitsThatAreLostFarFromTheOriginAreReported) {
+  const Model far = loadModel(fileWith("far.obj", squareAt(Vec3(1e9, 0, 0))));
+  ASSERT_FALSE(far.warnings.empty());
+  EXPECT_EQ(far.warnings[0].find("it lies 1e+09 m from the origin, where coordinates are read to 1.2e+02 m only"), 0U)
+      << far.warnings[0];
+  EXPECT_EQ(loadModel(fileWith("near.obj", squareAt(Vec3(500, 0, 0)))).warnings, std::vector<std::string>{});
+  EXPECT_FALSE(loadModel(fileWith("utm.obj", squareAt(Vec3(5e5, 5e6, 0)))).warnings.empty());
+  EXPECT_TRUE(loadModel(fileWith("point.obj", "v 1e9 0 0\n")).warnings.empty());
+}
+
 double areaOf(const Model& model) {
   double sum = 0;
   for (const auto& [a, b, c] : model.triangles)
