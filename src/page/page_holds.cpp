@@ -1,5 +1,7 @@
 #include "page/page_holds.h"
 
+#include <limits>
+
 namespace hl {
 
 void PageHolds::hear(PageNumber page, std::int64_t now_ns) {
@@ -19,21 +21,19 @@ void PageHolds::leave(std::size_t device, What what) {
 
 void PageHolds::gone(PageNumber page) {
   const std::lock_guard lock(mutex_);
-  letGoOf(page);
+  letGoOf(page, std::numeric_limits<std::int64_t>::max());
   heard_ns_.erase(page);
 }
 
 void PageHolds::letGoOfSilent(std::int64_t now_ns) {
   const std::lock_guard lock(mutex_);
-  for (const auto& [page, heard_ns] : heard_ns_) {
-    if (now_ns - heard_ns > kSilent_ns) letGoOf(page);
-  }
+  for (const auto& [page, heard_ns] : heard_ns_) letGoOf(page, now_ns - heard_ns);
 }
 
-void PageHolds::letGoOf(PageNumber page) {
+void PageHolds::letGoOf(PageNumber page, std::int64_t silence_ns) {
   std::erase_if(holders_, [&](const auto& hold) {
     const auto& [place, holder] = hold;
-    if (holder != page) return false;
+    if (holder != page || silence_ns <= silent_ns(place.second)) return false;
     let_go_(place.first, place.second);
     return true;
   });

@@ -16,10 +16,10 @@ namespace hl {
 /// Any thread.
 class PageHolds {
  public:
-  /// A page that holds something says so again three times in a second (protocol.ts).
-  static constexpr std::int64_t kSilent_ns = 800'000'000;
-
   enum class What { kHand, kButtons };
+  /// How long nothing is heard of a page that holds it. Such a page says so again four times in a second
+  /// (moved_hands.ts), on a busy machine less often. Buttons may be a dead man's switch.
+  static constexpr std::int64_t silent_ns(What what) { return what == What::kHand ? 3'000'000'000 : 800'000'000; }
   using LetGo = std::function<void(std::size_t device, What what)>;
 
   /// Not called again once this is destroyed; must call nothing here.
@@ -35,7 +35,7 @@ class PageHolds {
  private:
   using Place = std::pair<std::size_t, What>;
 
-  void letGoOf(PageNumber page);  // holding mutex_
+  void letGoOf(PageNumber page, std::int64_t silence_ns);  // holding mutex_
 
   const LetGo let_go_;
   std::mutex mutex_;  // of the next

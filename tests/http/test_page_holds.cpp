@@ -18,8 +18,6 @@
 namespace hl::test_page_holds {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // A floor through the origin of the device.
 std::shared_ptr<const Snapshot> floor() {
   Model model;
@@ -58,11 +56,8 @@ class PageThatHolds : public testing::Test {
     });
   }
   ServoView servo() { return test::servoOf(session_); }
-  // s, from now until hand and button are let go of.
-  double letGo_s() {
-    const Clock::time_point begin = Clock::now();
+  void waitUntilLetGo() {
     test::waitFor([&] { return servo().force_N.norm() < 0.3 && servo().buttons == 0; });
-    return std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
   TouchSession session_;
@@ -71,21 +66,21 @@ class PageThatHolds : public testing::Test {
   proto::ViewerMessage goal_, press_;
 };
 
-TEST_F(PageThatHolds, AndIsClosedWithoutACloseFrameLetsGoAtOnce) {
+TEST_F(PageThatHolds, AndIsClosedWithoutACloseFrameLetsGo) {
   holdUntilFelt();
   page_.reset();
-  EXPECT_LT(letGo_s(), 1);
+  waitUntilLetGo();
 }
 
-TEST_F(PageThatHolds, AndFallsSilentLetsGoWithinASecond) {
+TEST_F(PageThatHolds, AndFallsSilentLetsGo) {
   holdUntilFelt();
-  EXPECT_LT(letGo_s(), 1.5);  // the second, and how long a busy machine may take
+  waitUntilLetGo();
 }
 
 // Without a word of its own a page that is still there keeps what it holds.
 TEST_F(PageThatHolds, AndSaysThatItIsThereKeepsTheHand) {
   holdUntilFelt();
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 50; ++i) {
     page_->sendBinary("");
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
@@ -105,9 +100,9 @@ TEST(PageHolds, GoWithTheirOwnPageAlone) {
   holds.leave(2, PageHolds::What::kHand);
   holds.gone(1);
   EXPECT_EQ(left, std::vector<std::size_t>{1});
-  holds.letGoOfSilent(PageHolds::kSilent_ns);
+  holds.letGoOfSilent(PageHolds::silent_ns(PageHolds::What::kHand));
   EXPECT_EQ(left.size(), 1U);
-  holds.letGoOfSilent(PageHolds::kSilent_ns + 1);
+  holds.letGoOfSilent(PageHolds::silent_ns(PageHolds::What::kHand) + 1);
   EXPECT_EQ(left, (std::vector<std::size_t>{1, 0}));
 }
 

@@ -15,7 +15,7 @@ import { add, length, sub, type Vec } from "./vec";
 
 /** A server closes a page that sends 500 messages a second: the goals of all hands together stay below this. */
 const kGoals_Hz = 330;
-/** The server lets go after 0.8 s of silence. */
+/** The server lets go after 3 s of silence. */
 export const kSayAgain_ms = 250;
 /** A finger this far from the goal that its hand was left with, m at the hand, has been moved by someone else. */
 const kElsewhere_D = 0.06;
