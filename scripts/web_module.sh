@@ -19,8 +19,8 @@ web_sources() {
   done
   for file in $vectors; do echo "#include \"$root/src/$file\"" >"$out/vectors_$(basename "$file")"; done
   for file in src/base/{ledger,plain_math,quantities}.cpp src/device/{device_models,hand,mass_arm,phantom}.cpp \
-    src/device/{phantom_arm,simulated_device,wrist}.cpp src/touch/{body_events,body_hand,body_loop,body_world,exploration,felt_contact,held_contacts}.cpp \
-    src/touch/{joint_views,proxy_loop,touch_events,touch_step}.cpp src/tools/trace.cpp; do
+    src/device/{phantom_arm,simulated_device,wrist}.cpp src/touch/{body_acts,body_events,body_hand,body_loop,body_world,exploration,felt_contact,hand_account}.cpp \
+    src/touch/{held_contacts,joint_views,lost_bodies,proxy_loop,touch_events,touch_step}.cpp src/tools/trace.cpp; do
     echo "#include \"$root/$file\""
   done >"$out/rest.cpp"
   for file in "$root"/scenes/*.cpp; do echo "#include \"$file\""; done >"$out/scenes.cpp"

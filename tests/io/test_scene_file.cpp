@@ -754,7 +754,7 @@ TEST(SceneFile, AValueOfAnotherKindIsReportedWithWhatToWrite) {
     return afterFile(refusalOf("{\"objects\": [{\"builtin\": \"sphere:100\"," + object + "}]" + more + "}"));
   };
   const std::string at = ":1: objects[0].";
-  EXPECT_EQ(fault(R"("material": {"shade": "smooth"})"), at + "material.shade: \"smooth\" is none of SMOOTH, FLAT");
+  EXPECT_EQ(fault(R"("material": {"shade": "shiny"})"), at + "material.shade: \"shiny\" is none of SMOOTH, FLAT");
   EXPECT_EQ(fault(R"("material": {"shade": ["FLAT"]})"), at + "material.shade: it must not be a list");
   EXPECT_EQ(fault(R"("material": {"stiffness": {}})"), at + "material: one of its values must not be an object");
   EXPECT_EQ(fault(R"("material": {"stiffness": "high"})"), at + "material.stiffness: \"high\" is not a number");
