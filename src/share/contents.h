@@ -44,8 +44,8 @@ class Contents {
   Contents(ServerId self, Send send) : self_(self), send_(std::move(send)) {}
 
   /// The one that is kept: that which was here before, if there was one.
-  Content keep(const ContentName& name, Content content) {
-    return here_.try_emplace(name.sha256, std::move(content)).first->second;
+  Content keep(const ContentName& name, const Content& content) {
+    return here_.try_emplace(name.sha256, content).first->second;
   }
   /// Null: it is not here.
   Content find(const ContentName& name) const;
