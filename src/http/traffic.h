@@ -14,7 +14,7 @@ enum class RefusedBecause : std::uint8_t {
   kMalformed,  ///< does not parse, or not what comes next
   kTooLarge,
   kTooFast,
-  kSilent,  ///< no Open in time, or reads nothing
+  kSilent,  ///< no Open in time, reads nothing, or answers no ping
   kFull,    ///< no room for another page or session
   kFailed,  ///< our own fault
 };
