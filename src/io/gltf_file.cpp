@@ -117,7 +117,7 @@ void GltfFile::open(Buffer& buffer, std::string_view uri, const std::string& pla
 GltfFile::Buffer& GltfFile::bufferOf(std::size_t number) {
   if (buffers_[number] != nullptr) return *buffers_[number];
   auto buffer = std::make_unique<Buffer>();
-  const GltfItem item = GltfItem(json_, "").list("buffers")[number];
+  const GltfItem item(json_.at("buffers").at(number), fmt::format("buffers/{}", number));
   buffer->size = item.needed("byteLength");
   const json::value* const uri = item.object().if_contains("uri");
   if (uri != nullptr && uri->is_string())

@@ -30,6 +30,7 @@
 #include "cad_shapes.h"
 #include "io/load_model.h"
 #include "io/load_scene_file.h"
+#include "load_refusal.h"
 #include "scene/scene_model.h"
 #include "temp_folder.h"
 
@@ -38,6 +39,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::fileWith;
+using test::loadRefusal;
 using test::tempFile;
 
 // What is kept stays with the test.
@@ -61,15 +63,6 @@ std::string stepFile(const TopoDS_Shape& shape, const std::string& name, const c
   writer.Write(tempFile(name).c_str());
   Interface_Static::SetCVal("write.step.unit", "MM");
   return tempFile(name);
-}
-
-std::string refusalOf(const std::string& path) {
-  try {
-    loadModel(path);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 std::string contentOf(const std::string& path) {
@@ -242,7 +235,7 @@ TEST_F(CadFile, WhatIsBrokenGivesOneLine) {
     paths.push_back(fileWith(std::string("text") + ending, "nothing of the kind\n"));
   }
   for (const std::string& path : paths) {
-    const std::string line = refusalOf(path);
+    const std::string line = loadRefusal(path);
     EXPECT_TRUE(line.starts_with(path + ": ")) << path << " '" << line << "'";
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
   }

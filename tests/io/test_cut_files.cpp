@@ -12,24 +12,17 @@
 
 #include "base/error.h"
 #include "io/load_model.h"
+#include "load_refusal.h"
 #include "temp_folder.h"
 
 namespace hl::test_cut_files {
 namespace {
 
 using test::fileWith;
-
-std::string refusalOf(const std::string& path) {
-  try {
-    loadModel(path);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
+using test::loadRefusal;
 
 bool refuses(const std::string& name, const std::string& content, const std::string& part) {
-  const std::string refusal = refusalOf(fileWith(name, content));
+  const std::string refusal = loadRefusal(fileWith(name, content));
   if (refusal.find(part) != std::string::npos) return true;
   ADD_FAILURE() << name << ": '" << refusal << "' does not say '" << part << "'";
   return false;
@@ -133,7 +126,7 @@ TEST_P(CutFiles, IsRefusedOrReadAsAWhole) {
   int refused = 0;
   for (std::size_t bytes = 1; bytes < content.size(); bytes += 7) {
     const std::string path = fileWith(name, content.substr(0, bytes));
-    const std::string refusal = refusalOf(path);
+    const std::string refusal = loadRefusal(path);
     EXPECT_TRUE(!refusal.empty() || cornersOf(loadModel(path)) == whole) << bytes << " bytes";
     EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
     EXPECT_EQ(refusal.find("crashed"), std::string::npos) << bytes << " bytes: " << refusal;

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "builtin.h"
 #include "io/isolated.h"
+#include "load_refusal.h"
 #include "proxy/proxy.h"
 #include "scene/snapshot.h"
 #include "temp_folder.h"
@@ -25,15 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::fileWith;
-
-std::string refusalOf(const std::string& path) {
-  try {
-    loadModel(path);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
+using test::loadRefusal;
 
 const char kObj[] =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nvn 0 0 1\nvt 0.25 0.75\n"
@@ -218,9 +211,9 @@ TEST(LoadModel, AFileNamesOthersInItsOwnFolderOnly) {
   for (const char* name : {"near.bin", "beneath/near.bin"})
     EXPECT_EQ(loadModel(fileWith("own/a.gltf", gltfWith(name))).triangles.size(), 1u) << name;
   for (const char* name : {"../far.bin", "link.bin"})
-    EXPECT_NE(refusalOf(fileWith("own/a.gltf", gltfWith(name))).find("which is not in its folder"), std::string::npos)
+    EXPECT_NE(loadRefusal(fileWith("own/a.gltf", gltfWith(name))).find("which is not in its folder"), std::string::npos)
         << name;
-  EXPECT_NE(refusalOf(fileWith("own/a.gltf", gltfWith(test::tempFile("far.bin")))), "") << "an absolute name";
+  EXPECT_NE(loadRefusal(fileWith("own/a.gltf", gltfWith(test::tempFile("far.bin")))), "") << "an absolute name";
 }
 
 TEST(LoadModel, AMaterialElsewhereIsLeftOut) {
@@ -268,7 +261,7 @@ TEST(LoadModel, RefusalsAreOneLineThatNamesTheFile) {
         fileWith("junk.ply",
                  "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n"),
         fileWith("junk.wrl", "#VRML V2.0 utf8\nShape { geometry"), fileWith("nothing.wrl", "not vrml")}) {
-    const std::string refusal = refusalOf(path);
+    const std::string refusal = loadRefusal(path);
     EXPECT_EQ(refusal.find(path), 0u) << path << ": " << refusal;
     EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
   }
@@ -282,16 +275,16 @@ TEST(LoadModel, APlyFileThatIsCutSaysSo) {
   const std::string whole = header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   EXPECT_EQ(loadModel(fileWith("whole.ply", whole)).triangles.size(), 1U);
   for (std::size_t bytes = 4; bytes + 2 < header.size(); bytes += 7)
-    EXPECT_NE(refusalOf(fileWith("head.ply", whole.substr(0, bytes))).find("end_header"), std::string::npos) << bytes;
+    EXPECT_NE(loadRefusal(fileWith("head.ply", whole.substr(0, bytes))).find("end_header"), std::string::npos) << bytes;
   const auto counted = [&](const std::string& count) {
     const std::string start = "ply\nformat binary_little_endian 1.0\nelement vertex " + count;
-    return refusalOf(fileWith("count.ply", start + "\nproperty float x\nelement face 1\nend_header\n"));
+    return loadRefusal(fileWith("count.ply", start + "\nproperty float x\nelement face 1\nend_header\n"));
   };
   EXPECT_NE(counted("99999999999999999999").find("'99999999999999999999' is no count of elements"), std::string::npos);
   EXPECT_NE(counted("-3").find("'-3' is no count of elements"), std::string::npos);
   EXPECT_NE(counted("18446744073709551615").find("it is cut: its header tells of 18446744073709551615 elements"),
             std::string::npos);
-  EXPECT_NE(refusalOf(fileWith("cut.ply", header + "0 0 0\n1 0 0\n")).find("4 elements, and 2 lines"),
+  EXPECT_NE(loadRefusal(fileWith("cut.ply", header + "0 0 0\n1 0 0\n")).find("4 elements, and 2 lines"),
             std::string::npos);
 }
 
@@ -322,13 +315,13 @@ TEST(LoadModel, APlyFileWithElementsThatAreNotReadSaysSo) {
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n", face = "3 0 1 2\n";
   const std::string refused = "has elements of the kind 'camera' before";
   const std::string between = format + vertices + camera + faces + end + points + "7\n" + face;
-  EXPECT_NE(refusalOf(fileWith("c.ply", between)).find(refused), std::string::npos);
+  EXPECT_NE(loadRefusal(fileWith("c.ply", between)).find(refused), std::string::npos);
   const std::string first = format + camera + vertices + faces + end + "7\n" + points + face;
-  EXPECT_NE(refusalOf(fileWith("c.ply", first)).find(refused), std::string::npos);
+  EXPECT_NE(loadRefusal(fileWith("c.ply", first)).find(refused), std::string::npos);
   const std::string last = format + vertices + faces + camera + end + points + face + "7\n";
   EXPECT_EQ(loadModel(fileWith("c.ply", last)).triangles.size(), 1u);
   const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
-  EXPECT_NE(refusalOf(fileWith("c.ply", format + vertices + strips + end + points + face)).find("tristrips"),
+  EXPECT_NE(loadRefusal(fileWith("c.ply", format + vertices + strips + end + points + face)).find("tristrips"),
             std::string::npos);
 }
 
@@ -340,7 +333,8 @@ TEST(LoadModel, AGltfFileThatNeedsAnUnknownExtensionSaysSo) {
   const auto needing = [&](const std::string& extension) {
     return fileWith("needs.gltf", "{\"extensionsRequired\":[\"" + extension + "\"]," + gltf.substr(gltf.find('{') + 1));
   };
-  EXPECT_NE(refusalOf(needing("EXT_mesh_gpu_instancing")).find("needs the extension EXT_mesh_gpu"), std::string::npos);
+  EXPECT_NE(loadRefusal(needing("EXT_mesh_gpu_instancing")).find("needs the extension EXT_mesh_gpu"),
+            std::string::npos);
   EXPECT_EQ(loadModel(needing("KHR_materials_unlit")).triangles.size(), 1u);
 }
 
@@ -387,7 +381,7 @@ TEST(LoadModel, TornFilesNeverCrash) {
     for (int i = 0; i < 30; ++i) {
       std::string torn = content.substr(0, 1 + random() % content.size());
       for (int k = 0; k < 3; ++k) torn[random() % torn.size()] = static_cast<char>(random() % 256);
-      refusalOf(fileWith(name, torn));
+      loadRefusal(fileWith(name, torn));
     }
   }
 }
@@ -405,7 +399,7 @@ TEST(LoadModel, EveryTestModelLoadsOrIsRefused) {
         ending != ".x3d" && ending != ".wrl") {
       continue;
     }
-    const std::string refusal = refusalOf(entry.path().string());
+    const std::string refusal = loadRefusal(entry.path().string());
     (refusal.empty() ? loaded : refused)++;
     EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
   }
