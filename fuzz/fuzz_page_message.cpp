@@ -21,8 +21,9 @@ void requireBounded(const TouchSession& session) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static TouchSession session(makeSnapshot(std::vector<Instance>{}, "nothing"), {});
   static const FeedCallbacks feed = makeViewerFeed(session, "fuzzer");
-  feed.receive(fuzz::textOf(data, size));
+  feed.receive(PageNumber{1}, fuzz::textOf(data, size));
   requireBounded(session);
+  feed.gone(PageNumber{1});
   fuzz::require(!feed.hello().empty() && !feed.state().empty());
   return 0;
 }
