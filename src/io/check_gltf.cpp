@@ -84,7 +84,7 @@ class MeshCheck {
     if (!attributes) primitive.refuse("has no attributes");
     for (const auto& member : attributes->object()) attributes->reference(member.key(), "accessors", accessors_.size());
     const std::optional<GltfItem> extensions = primitive.child("extensions");
-    const bool packed = extensions && extensions->has("KHR_draco_mesh_compression");
+    const bool packed = extensions && isPackedGltf(primitive.object());
     const auto position = attributes->reference("POSITION", "accessors", accessors_.size());
     const auto indices = primitive.reference("indices", "accessors", accessors_.size());
     if (!position) {
@@ -145,15 +145,13 @@ class MeshCheck {
   const bool quantised_;
 };
 
-bool anyNot0(const GltfItem& item) {
-  const json::value* const weights = item.object().if_contains("weights");
-  const json::array* const array = weights == nullptr ? nullptr : weights->if_array();
-  return array != nullptr && std::any_of(array->begin(), array->end(), [](const json::value& weight) {
-           return weight.is_number() && weight.to_number<double>() != 0;
-         });
-}
-
 }  // namespace
+
+bool isPackedGltf(const json::object& primitive) {
+  const json::value* const extensions = primitive.if_contains("extensions");
+  return extensions != nullptr && extensions->is_object() &&
+         extensions->as_object().contains("KHR_draco_mesh_compression");
+}
 
 void checkGltfExtensions(const json::value& file) {
   const json::value* const required = file.is_object() ? file.as_object().if_contains("extensionsRequired") : nullptr;
@@ -191,13 +189,9 @@ void checkGltfMeshes(const json::value& file, const GltfAccessors& accessors, st
   const GltfItem root(file, "");
   const std::size_t materials = root.list("materials").size();
   MeshCheck meshes(file, accessors, warnings);
-  bool morphed = false;
   for (const GltfItem& mesh : root.list("meshes")) {
     for (const GltfItem& primitive : mesh.list("primitives")) meshes.check(primitive, materials);
-    morphed = morphed || anyNot0(mesh);
   }
-  for (const GltfItem& node : root.list("nodes")) morphed = morphed || anyNot0(node);
-  if (morphed) warnings.emplace_back("its morph targets are left out, though some have a weight");
 }
 
 }  // namespace hl

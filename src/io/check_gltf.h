@@ -11,6 +11,9 @@
 
 namespace hl {
 
+/// Whether the numbers of a primitive are packed by Draco, which assimp alone unpacks.
+bool isPackedGltf(const boost::json::object& primitive);
+
 /// Throws hl::Error for a file that needs an extension which is not read: what it changes of the shape would be
 /// missing.
 void checkGltfExtensions(const boost::json::value& file);

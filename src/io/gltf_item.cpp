@@ -77,6 +77,13 @@ std::vector<std::size_t> GltfItem::references(std::string_view name, std::string
   return references;
 }
 
+std::optional<double> GltfItem::number(std::string_view name) const {
+  const json::value* const value = object_.if_contains(name);
+  if (value == nullptr) return {};
+  if (!value->is_number()) refuse(fmt::format("its {} is no number", name));
+  return value->to_number<double>();
+}
+
 std::vector<double> GltfItem::numbers(std::string_view name, std::size_t count) const {
   const json::value* const value = object_.if_contains(name);
   if (value == nullptr) return {};

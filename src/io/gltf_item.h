@@ -29,6 +29,8 @@ class GltfItem {
   std::optional<std::size_t> reference(std::string_view name, std::string_view list, std::size_t count) const;
   /// A member that is a list of references.
   std::vector<std::size_t> references(std::string_view name, std::string_view list, std::size_t count) const;
+  /// A member that is a number; nothing where it lacks. Throws hl::Error for another.
+  std::optional<double> number(std::string_view name) const;
   /// A member that is a list of `count` numbers; empty where it lacks. Throws hl::Error for another.
   std::vector<double> numbers(std::string_view name, std::size_t count) const;
   /// A member that is an object; nothing where it lacks. Throws hl::Error for another.

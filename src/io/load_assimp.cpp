@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "base/plain_file.h"
 #include "geometry/polygon.h"
+#include "io/bone_pose.h"
 #include "io/check_ply.h"
 #include "io/clean_obj.h"
 #include "io/gltf_haptics.h"
@@ -59,12 +60,6 @@ class Progress final : public Assimp::ProgressHandler {
   float last_ = 0;
 };
 
-Eigen::Matrix4d matrixOf(const aiMatrix4x4& m) {
-  Eigen::Matrix4d out;
-  out << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
-  return out;
-}
-
 Vec3 vecOfAssimp(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
 void appendPolygon(Model& model, const aiMesh& mesh, const aiFace& face, std::uint32_t base) {
@@ -89,18 +84,37 @@ void appendFaces(Model& model, const aiMesh& mesh, std::uint32_t base, std::uint
   model.point_materials.resize(model.points.size(), material);
 }
 
+void appendTexcoord(Model& model, const aiMesh& mesh, unsigned vertex) {
+  const bool has = mesh.HasTextureCoords(0);
+  model.texcoords.emplace_back(has ? mesh.mTextureCoords[0][vertex].x : 0, has ? mesh.mTextureCoords[0][vertex].y : 0);
+}
+
 // Normals turn with the inverse transpose; a mirrored node keeps its winding, which does not matter to two-sided touch.
+Vec3 turnedNormal(const aiMesh& mesh, unsigned vertex, const Mat3& for_normals) {
+  if (!mesh.HasNormals()) return Vec3::Zero();
+  const Vec3 normal = (for_normals * vecOfAssimp(mesh.mNormals[vertex])).normalized();
+  return normal.allFinite() ? normal : Vec3(Vec3::Zero());
+}
+
 void appendMesh(Model& model, const aiMesh& mesh, const Eigen::Matrix4d& to_world, std::uint16_t material) {
   const auto base = static_cast<std::uint32_t>(model.positions.size());
   const Mat3 linear = to_world.topLeftCorner<3, 3>();
   const Mat3 for_normals = linear.inverse().transpose();
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     model.positions.push_back(linear * vecOfAssimp(mesh.mVertices[i]) + to_world.topRightCorner<3, 1>());
-    const Vec3 normal =
-        mesh.HasNormals() ? Vec3(for_normals * vecOfAssimp(mesh.mNormals[i])).normalized() : Vec3(Vec3::Zero());
-    model.normals.push_back(normal.allFinite() ? normal : Vec3(Vec3::Zero()));
-    model.texcoords.emplace_back(mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][i].x : 0,
-                                 mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][i].y : 0);
+    model.normals.push_back(turnedNormal(mesh, i, for_normals));
+    appendTexcoord(model, mesh, i);
+  }
+  appendFaces(model, mesh, base, material);
+}
+
+void appendBent(Model& model, const aiMesh& mesh, const std::vector<BentVertex>& bent, std::uint16_t material) {
+  const auto base = static_cast<std::uint32_t>(model.positions.size());
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const Mat3 linear = bent[i].leftCols<3>();
+    model.positions.push_back(linear * vecOfAssimp(mesh.mVertices[i]) + bent[i].col(3));
+    model.normals.push_back(turnedNormal(mesh, i, linear.inverse().transpose()));
+    appendTexcoord(model, mesh, i);
   }
   appendFaces(model, mesh, base, material);
 }
@@ -111,18 +125,22 @@ struct Import {
   const GltfHaptics& haptics;
   Model& model;
   AppearanceReader& appearance;
+  const BonePose& bones;
 };
 
 // A node without a material of its own has that of its parent.
 void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& parent, std::uint16_t material, int depth) {
   if (depth > kDeepestNode) throw Error("its nodes are nested too deep");
-  const Eigen::Matrix4d to_world = parent * matrixOf(node.mTransformation);
+  const Eigen::Matrix4d to_world = parent * matrixOfAssimp(node.mTransformation);
   const auto own = import.haptics.material_of_node.find(node.mName.C_Str());
   if (own != import.haptics.material_of_node.end()) material = static_cast<std::uint16_t>(own->second);
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& mesh = *import.scene.mMeshes[node.mMeshes[i]];
     const std::size_t before = import.model.triangles.size();
-    appendMesh(import.model, mesh, to_world, material);
+    if (mesh.HasBones())
+      appendBent(import.model, mesh, import.bones.bend(mesh, to_world), material);
+    else
+      appendMesh(import.model, mesh, to_world, material);
     import.appearance.add(mesh, import.model.triangles.size() - before);
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i)
@@ -226,7 +244,8 @@ void addScene(const Assimp::Importer& importer, const ModelFile& file, const aiS
     throw std::bad_alloc();
   if (scene == nullptr) throw Error("cannot be understood: " + saidOf(file, importer.GetErrorString()));
   AppearanceReader appearance(*scene, file);
-  Import import{*scene, haptics, model, appearance};
+  BonePose bones(*scene);
+  Import import{*scene, haptics, model, appearance, bones};
   if (scene->mRootNode != nullptr) appendNode(import, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0, 0);
   model.appearance = appearance.take(model.warnings);
   addHaptics(model, std::move(haptics));

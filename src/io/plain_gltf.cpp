@@ -11,11 +11,13 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "io/base64.h"
 #include "io/check_gltf.h"
 #include "io/gltf_accessors.h"
+#include "io/gltf_additions.h"
 #include "io/gltf_file.h"
 #include "io/gltf_item.h"
+#include "io/gltf_pose.h"
+#include "io/gltf_texcoords.h"
 
 namespace hl {
 
@@ -23,36 +25,26 @@ namespace json = boost::json;
 
 namespace {
 
-constexpr std::int64_t kFloat = 5126;
-
 // What HL reads of a primitive in numbers that may be integers.
 bool isInFloats(std::string_view attribute) {
   return attribute == "POSITION" || attribute == "NORMAL" || attribute.starts_with("TEXCOORD_");
 }
 
-bool isPacked(const json::object& primitive) {
-  const json::value* const extensions = primitive.if_contains("extensions");
-  return extensions != nullptr && extensions->is_object() &&
-         extensions->as_object().contains("KHR_draco_mesh_compression");
-}
-
 // Changes a document that has been checked.
 class GltfSimplifier {
  public:
-  GltfSimplifier(json::value& file, const GltfAccessors& accessors, std::vector<std::string>& warnings)
-      : accessors_(accessors), warnings_(warnings), root_(file.as_object()) {}
+  GltfSimplifier(json::value& file, const GltfAccessors& accessors, GltfAdditions& additions,
+                 std::vector<std::string>& warnings)
+      : accessors_(accessors), additions_(additions), warnings_(warnings), root_(file.as_object()) {}
 
   /// Whether anything changed.
   bool simplify() {
-    leaveOutSkins();
     makeUnitTurns();
     for (json::value& mesh : listOf("meshes")) {
       json::value* const primitives = mesh.as_object().if_contains("primitives");
       if (primitives == nullptr) continue;
       for (json::value& primitive : primitives->as_array()) simplify(primitive.as_object());
     }
-    addBytes();
-    if (changed_) root_.erase("animations");  // which may name what is gone
     return changed_;
   }
 
@@ -61,15 +53,6 @@ class GltfSimplifier {
     static json::array none;
     json::value* const list = root_.if_contains(name);
     return list == nullptr ? none : list->as_array();
-  }
-
-  void leaveOutSkins() {
-    if (listOf("skins").empty()) return;
-    bool used = false;
-    for (json::value& node : listOf("nodes")) used = node.as_object().erase("skin") > 0 || used;
-    root_.erase("skins");
-    skins_gone_ = changed_ = true;
-    if (used) warnings_.emplace_back("its skins are left out: what they move stands as it was modelled");
   }
 
   // The reader makes a shear of a turn of another length.
@@ -94,12 +77,13 @@ class GltfSimplifier {
   }
 
   void simplify(json::object& primitive) {
-    if (isPacked(primitive)) return;
+    if (isPackedGltf(primitive)) return;
     json::object& attributes = primitive["attributes"].as_object();
     bool integers = false;
     for (auto& [name, value] : attributes) {
       if (!isInFloats(name)) continue;
       const auto number = value.to_number<std::size_t>();
+      if (number >= accessors_.size()) continue;  // an addition: it is in floats
       const GltfAccessor& accessor = accessors_[number];
       if (accessor.kind == ScalarKind::kFloat || (!accessor.run && !accessor.sparse)) continue;
       if (const auto floats = inFloats(number)) {
@@ -107,14 +91,7 @@ class GltfSimplifier {
         integers = true;
       }
     }
-    // These may be integers too, and are not read.
-    if (integers) attributes.erase("TANGENT");
-    if (integers) primitive.erase("targets");
-    if (!integers && !skins_gone_) return;
-    for (auto at = attributes.begin(); at != attributes.end();) {
-      const std::string_view name = at->key();
-      at = name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") ? attributes.erase(at) : at + 1;
-    }
+    if (integers) attributes.erase("TANGENT");  // which may be integers too, and are not read
   }
 
   // The number of a new accessor; nothing where the bytes are not there.
@@ -122,32 +99,16 @@ class GltfSimplifier {
     if (const auto known = in_floats_.find(number); known != in_floats_.end()) return known->second;
     const std::optional<std::vector<float>> floats = accessors_.floatsOf(number);
     if (!floats) return {};
-    json::array& list = root_["accessors"].as_array();
-    json::array& views = root_["bufferViews"].as_array();
-    const std::size_t bytes = floats->size() * sizeof(float);
-    views.push_back(json::object{
-        {"buffer", root_["buffers"].as_array().size()}, {"byteOffset", bytes_.size()}, {"byteLength", bytes}});
-    bytes_.append(reinterpret_cast<const char*>(floats->data()), bytes);
-    list.push_back(json::object{{"bufferView", views.size() - 1},
-                                {"componentType", kFloat},
-                                {"count", accessors_[number].count},
-                                {"type", accessors_[number].type}});
     changed_ = true;
-    return in_floats_[number] = list.size() - 1;
-  }
-
-  void addBytes() {
-    if (bytes_.empty()) return;
-    root_["buffers"].as_array().push_back(json::object{
-        {"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + toBase64(bytes_)}});
+    return in_floats_[number] = additions_.add(*floats, accessors_[number].type, accessors_[number].parts);
   }
 
   const GltfAccessors& accessors_;
+  GltfAdditions& additions_;
   std::vector<std::string>& warnings_;
   json::object& root_;
   std::map<std::size_t, std::size_t> in_floats_;  // accessors by those that they were made of
-  std::string bytes_;                             // of the new accessors
-  bool changed_ = false, skins_gone_ = false;
+  bool changed_ = false;
 };
 
 }  // namespace
@@ -174,7 +135,12 @@ std::optional<std::string> plainGltf(const ModelFile& model, std::vector<std::st
   const GltfAccessors accessors(file);
   checkGltfNodes(file.json());
   checkGltfMeshes(file.json(), accessors, warnings);
-  if (!GltfSimplifier(file.json(), accessors, warnings).simplify()) return std::nullopt;
+  GltfAdditions additions(file.json().as_object());
+  const bool posed = poseGltf(file.json(), accessors, additions, warnings);
+  const bool placed = placePictures(file.json(), accessors, additions, warnings);
+  const bool simplified = GltfSimplifier(file.json(), accessors, additions, warnings).simplify();
+  if (!posed && !placed && !simplified) return std::nullopt;
+  additions.finish();
   return file.text();
 }
 

@@ -1,6 +1,6 @@
 // A glTF 2.0 file as its reader expects it: positions, normals and texture coordinates in floats, where
-// KHR_mesh_quantization or the core has integers, which the reader takes for the bits of floats; turns of length 1; no
-// skins, of which it crashes where they have no matrices of their own, and no animations.
+// KHR_mesh_quantization or the core has integers, which the reader takes for the bits of floats; turns of length 1;
+// what skins and morph targets bend as it stands, as it applies neither and crashes where a skin has no matrices.
 #pragma once
 
 #include <optional>

@@ -90,9 +90,13 @@ std::optional<std::uint32_t> AppearanceReader::pictureOf(const aiMaterial& mater
     unsigned coordinates = 0;
     aiTextureMapMode mode[2]{aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
     if (material.GetTexture(type, 0, &found, nullptr, &coordinates, nullptr, nullptr, mode) != aiReturn_SUCCESS ||
-        coordinates != 0 || found.length == 0)
+        found.length == 0)
       continue;
     const std::string name = found.C_Str();
+    if (coordinates != 0) {
+      refused_.try_emplace(shown(name), "lies over texture coordinates other than the first");
+      continue;
+    }
     const Wrap wrap = mode[0] == aiTextureMapMode_Clamp ? Wrap::kClamp : Wrap::kRepeat;
     const auto [known, fresh] = pictures_.try_emplace({name, wrap});
     if (!fresh) return known->second;

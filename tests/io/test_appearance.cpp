@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 #include <spng.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <random>
 #include <set>
 #include <string>
 
+#include "gltf_document.h"
 #include "io/isolated.h"
 #include "io/load_image.h"
 #include "io/load_model.h"
@@ -65,6 +68,53 @@ TEST(Appearance, OneGreyIsNoColour) {
   EXPECT_TRUE(loadModel(twoTriangles("newmtl a\nKd 0.8 0.8 0.8\nnewmtl b\nKd 0.8 0.8 0.8\n")).appearance.empty());
   EXPECT_FALSE(loadModel(twoTriangles("newmtl a\nKd 0 0 0\nnewmtl b\nKd 1 1 1\n")).appearance.empty());
   EXPECT_TRUE(loadModel(fileWith("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).appearance.empty());
+}
+
+// The product of matrices of KHR_texture_transform. The reader turns v around.
+TEST(Appearance, PicturesOfGltfLieOverTheirOwnTextureCoordinatesAsTheyAreTransformed) {
+  std::mt19937 random(3);
+  const auto number = [&] { return std::uniform_real_distribution<float>(-2, 2)(random); };
+  for (int round = 0; round < 20; ++round) {
+    test::GltfDocument gltf;
+    std::vector<float> coordinates;
+    while (coordinates.size() < 6) coordinates.push_back(number());
+    gltf.attribute("POSITION", gltf.add({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3, "VEC3"));
+    gltf.attribute("TEXCOORD_0", gltf.add(std::vector<float>(6, 0.5F), 3, "VEC2"));
+    gltf.attribute("TEXCOORD_1", gltf.add(coordinates, 3, "VEC2"));
+    gltf.primitive = R"(,"material":0)";
+    gltf.nodes = R"({"mesh":0})";
+    const float x = number(), y = number(), angle = number(), u = number(), v = number();
+    fileWith("lies.png", pngOf(2));
+    gltf.rest = fmt::format(
+        R"(,"images":[{{"uri":"lies.png"}}],"textures":[{{"source":0}}],"materials":[{{"pbrMetallicRoughness":)"
+        R"({{"baseColorTexture":{{"index":0,"texCoord":{},"extensions":{{"KHR_texture_transform":)"
+        R"({{"offset":[{},{}],"rotation":{},"scale":[{},{}]{}}}}}}}}}}}])",
+        round % 2, x, y, angle, u, v, round % 2 == 0 ? R"(,"texCoord":1)" : "");
+    const Model model = loadModel(fileWith("lies.gltf", gltf.text()));
+    EXPECT_TRUE(model.warnings.empty());
+    ASSERT_EQ(model.texcoords.size(), 3u);
+    ASSERT_TRUE(paintOf(model, 0).picture);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double s = static_cast<double>(u * coordinates[2 * i]), t = static_cast<double>(v * coordinates[2 * i + 1]);
+      const double cosine = std::cos(static_cast<double>(angle)), sine = std::sin(static_cast<double>(angle));
+      EXPECT_NEAR(model.texcoords[i].x(), cosine * s + sine * t + static_cast<double>(x), 1e-5);
+      EXPECT_NEAR(1 - model.texcoords[i].y(), -sine * s + cosine * t + static_cast<double>(y), 1e-5);
+    }
+  }
+}
+
+TEST(Appearance, APictureOverTextureCoordinatesThatAreNotThereIsAWarning) {
+  test::GltfDocument gltf;
+  gltf.attribute("POSITION", gltf.add({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3, "VEC3"));
+  gltf.primitive = R"(,"material":0)";
+  gltf.nodes = R"({"mesh":0})";
+  fileWith("over.png", pngOf(2));
+  gltf.rest = R"(,"images":[{"uri":"over.png"}],"textures":[{"source":0}],"materials":[{"pbrMetallicRoughness":)"
+              R"({"baseColorTexture":{"index":0,"texCoord":3}}}])";
+  const Model model = loadModel(fileWith("over.gltf", gltf.text()));
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_EQ(model.warnings[0],
+            "meshes/0/primitives/0: has no TEXCOORD_3 that can be read, over which its picture lies");
 }
 
 TEST(Appearance, PicturesAreTheFilesThatMaterialsName) {
