@@ -100,7 +100,7 @@ const char* threadName() noexcept { return thread_name; }
 std::thread startThread(const char* name, std::function<void()> body) {
   return std::thread([name, body = std::move(body)] {
     nameThread(name);
-    while (!attempt(body)) std::this_thread::sleep_for(kAfterFailure);
+    while (!guarded(body)) std::this_thread::sleep_for(kAfterFailure);
   });
 }
 

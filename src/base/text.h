@@ -1,12 +1,18 @@
-// Small operations on texts of bytes: they change ASCII alone, and other bytes stay as they are.
+// Small operations on texts of bytes: they know the letters of ASCII alone, whatever the locale of the process, and
+// other bytes stay as they are.
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 
 namespace hl {
+
+constexpr bool isDigit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+constexpr bool isLetterOrDigit(char c) { return isLetter(c) || isDigit(c); }
+constexpr char lowered(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+constexpr char raised(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 /// Without the letters of `around` at its ends: blanks, tabs and carriage returns.
 inline std::string_view trimmed(std::string_view text, std::string_view around = " \t\r") {
@@ -31,7 +37,7 @@ inline std::string without(std::string_view letters, std::string_view text) {
 /// In lower case.
 inline std::string lowered(std::string_view text) {
   std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(result.begin(), result.end(), result.begin(), [](char c) { return lowered(c); });
   return result;
 }
 

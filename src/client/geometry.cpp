@@ -13,8 +13,15 @@ using Index = std::uint32_t;
 // hlBegin.
 constexpr std::size_t kMoveFrom = 4096;
 
+bool takesMemoryOf(const Numbers& whole, const Numbers& part) { return whole.empty() && part.size() >= kMoveFrom; }
+
+void makeRoom(Numbers& whole, const Numbers& part) {
+  if (!takesMemoryOf(whole, part)) whole.makeRoom(part.size());
+}
+
+// There must be room.
 void append(Numbers& whole, Numbers& part) {
-  if (whole.empty() && part.size() >= kMoveFrom) {
+  if (takesMemoryOf(whole, part)) {
     whole = std::move(part);
     return;
   }
@@ -163,10 +170,22 @@ std::size_t wholeVertices(HLenum mode, std::size_t count) {
 void appendPrimitives(Geometry& geometry, HLenum mode, Vertices& vertices, DrawOrder order) {
   const auto base = static_cast<Index>(geometry.vertices.size());
   const auto count = static_cast<Index>(vertices.size());
+  const std::size_t triangles = geometry.triangles.size(), segments = geometry.segments.size(),
+                    points = geometry.points.size();
+  try {
+    Assembler(geometry, base, count, order).assemble(mode);
+    makeRoom(geometry.vertices.positions, vertices.positions);
+    makeRoom(geometry.vertices.normals, vertices.normals);
+    makeRoom(geometry.vertices.texcoords, vertices.texcoords);
+  } catch (...) {
+    geometry.triangles.resize(triangles);
+    geometry.segments.resize(segments);
+    geometry.points.resize(points);
+    throw;
+  }
   append(geometry.vertices.positions, vertices.positions);
   append(geometry.vertices.normals, vertices.normals);
   append(geometry.vertices.texcoords, vertices.texcoords);
-  Assembler(geometry, base, count, order).assemble(mode);
 }
 
 }  // namespace hl::client

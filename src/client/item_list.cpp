@@ -21,8 +21,13 @@ bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertic
     return last.call == 0 && last.geometry.patches.empty() && last.geometry.takes(vertices) && last.matrix == matrix &&
            last.look == look;
   };
-  if (items_.empty() || !joins(items_.back())) items_.push_back({matrix, look, 0, {}});
-  appendPrimitives(items_.back().geometry, mode, vertices, order);
+  if (!items_.empty() && joins(items_.back())) {
+    appendPrimitives(items_.back().geometry, mode, vertices, order);
+    return true;
+  }
+  Item item{matrix, look, 0, {}};
+  appendPrimitives(item.geometry, mode, vertices, order);
+  items_.push_back(std::move(item));
   return true;
 }
 
@@ -51,9 +56,14 @@ void ItemList::drawPatch(const Matrix4& matrix, const Look& look, proto::Patch p
     return !last.geometry.patches.empty() && last.geometry.patch_error == error_m && last.matrix == matrix &&
            last.look == look;
   };
-  if (items_.empty() || !joins(items_.back())) items_.push_back({matrix, look, 0, {}});
-  items_.back().geometry.patch_error = error_m;
-  items_.back().geometry.patches.push_back(std::move(patch));
+  if (!items_.empty() && joins(items_.back())) {
+    items_.back().geometry.patches.push_back(std::move(patch));
+    return;
+  }
+  Item item{matrix, look, 0, {}};
+  item.geometry.patch_error = error_m;
+  item.geometry.patches.push_back(std::move(patch));
+  items_.push_back(std::move(item));
 }
 
 void ItemList::drawImplicit(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Implicit> implicit) {

@@ -21,7 +21,10 @@ class ReplyInbox {
   std::size_t put(proto::ServerReply reply) {
     const std::scoped_lock lock(mutex_);
     const bool is_state = reply.has_state();
-    if (is_state && state_) replies_.erase(*state_);
+    if (is_state && state_) {
+      replies_.erase(*state_);
+      state_.reset();
+    }
     replies_.push_back(std::move(reply));
     if (is_state) state_ = std::prev(replies_.end());
     arrived_.notify_all();

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/printable.h"
+#include "base/text.h"
 #include "base/url.h"
 
 namespace hl::client {
@@ -43,7 +44,7 @@ const auto& options() {
       {"sim", [](ServerUrl& url, const std::string& value) { url.sim = value; }},
       {"device",
        [](ServerUrl& url, const std::string& value) {
-         const bool is_label = !value.empty() && std::isalpha(static_cast<unsigned char>(value.front())) != 0;
+         const bool is_label = !value.empty() && isLetter(value.front());
          if (is_label)
            url.device_label = value;
          else

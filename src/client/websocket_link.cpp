@@ -51,7 +51,9 @@ class WebsocketLink : public Link {
       thread_.join();
       throw;
     }
-    asio::co_spawn(context_, talk(), asio::detached);
+    asio::co_spawn(context_, talk(), [this](const std::exception_ptr& error) {
+      if (error) fail(error);
+    });
   }
 
   ~WebsocketLink() override {
@@ -116,6 +118,16 @@ class WebsocketLink : public Link {
     stream_->close();
     bell_.cancel();
     linger_.cancel();
+  }
+
+  // Of what was thrown on the way, as where a reply needs more memory than there is.
+  void fail(const std::exception_ptr& error) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const std::exception& why) {
+      finish("the connection to " + address_.text() + " is lost: " + why.what());
+    }
+    socket_.reset();
   }
 
   std::string reasonOf(const boost::system::error_code& error) const {

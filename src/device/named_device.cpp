@@ -1,10 +1,10 @@
 #include "device/named_device.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "device/open_device.h"
 
 namespace hl {
@@ -14,8 +14,8 @@ namespace {
 // They stand in names of files, in labels of metrics and in addresses.
 void requireName(const std::string& name) {
   constexpr std::size_t kLongest = 32;
-  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
-  const bool begins = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0;
+  const auto fits = [](char c) { return isLetterOrDigit(c) || c == '-' || c == '_'; };
+  const bool begins = !name.empty() && isLetter(name.front());
   if (begins && name.size() <= kLongest && std::all_of(name.begin(), name.end(), fits)) return;
   throw Error("'" + name + "' is no name of a device: write a letter, then letters, digits, - or _, at most " +
               std::to_string(kLongest) + " in all");

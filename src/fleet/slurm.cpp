@@ -4,13 +4,13 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace hl {
 
@@ -48,8 +48,7 @@ std::string submit(const std::string& line) {
   while (const std::size_t got = std::fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, got);
   const int status = pclose(pipe);
   const std::string first = output.substr(0, output.find_first_of(";\n"));
-  const bool number =
-      !first.empty() && std::all_of(first.begin(), first.end(), [](unsigned char c) { return std::isdigit(c); });
+  const bool number = !first.empty() && std::all_of(first.begin(), first.end(), [](char c) { return isDigit(c); });
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     throw Error("there is no sbatch here: install slurm-client, or leave --slurm out");
   if (status != 0 || !number) throw Error("Slurm takes no job: " + output.substr(0, output.find('\n')));

@@ -6,11 +6,11 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "base/error.h"
 #include "base/plain_file.h"
+#include "base/text.h"
 #include "fleet/nearest_name.h"
 
 namespace hl {
@@ -182,7 +182,7 @@ class SweepReader {
     const auto names = [&](const SaidOption& option) {
       const std::size_t at = fault.find("--" + option.name);
       const std::size_t end = at + 2 + option.name.size();
-      return at != std::string::npos && (end == fault.size() || (std::isalnum(fault[end]) == 0 && fault[end] != '-'));
+      return at != std::string::npos && (end == fault.size() || (!isLetterOrDigit(fault[end]) && fault[end] != '-'));
     };
     if (names(said[varied])) return line_of_value;
     const auto named = std::find_if(said.begin(), said.end(), names);

@@ -1,11 +1,11 @@
 #include "io/json_flags.h"
+#include "base/text.h"
 
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
 #include <array>
 #include <boost/json.hpp>
-#include <cctype>
 
 namespace hl {
 
@@ -19,7 +19,7 @@ using google::protobuf::FieldDescriptor;
 constexpr std::array<std::string_view, 10> kFlagWords{"t", "true", "y", "yes", "1", "f", "false", "n", "no", "0"};
 
 bool isFlagWord(std::string_view text) {
-  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == b; };
+  const auto same = [](char a, char b) { return lowered(a) == b; };
   return std::any_of(kFlagWords.begin(), kFlagWords.end(), [&](std::string_view word) {
     return std::equal(text.begin(), text.end(), word.begin(), word.end(), same);
   });

@@ -42,8 +42,7 @@ double readEsriHeader(TextWords& words, EsriHeader& header) {
   std::string_view word;
   while (words.next(word)) {
     const std::string key = lowered(word);
-    if (key.empty() || std::isalpha(static_cast<unsigned char>(key[0])) == 0 || key == "nan")
-      return words.numberOf(key, "a height");
+    if (key.empty() || !isLetter(key[0]) || key == "nan") return words.numberOf(key, "a height");
     const double value = words.number(shown(key).c_str());
     if (key == "ncols") header.columns = value;
     if (key == "nrows") header.rows = value;

@@ -64,9 +64,9 @@ bool looksLikeAName(std::string_view text) {
   const std::size_t dot = text.rfind('.');
   if (text.size() > kLongestName || dot == std::string_view::npos) return false;
   const std::string_view ending = text.substr(dot + 1);
-  const auto letter = [](unsigned char c) { return std::isalnum(c) != 0; };
+  const auto letter = [](char c) { return isLetterOrDigit(c); };
   return !ending.empty() && ending.size() <= kLongestEnding && std::all_of(ending.begin(), ending.end(), letter) &&
-         std::any_of(ending.begin(), ending.end(), [](unsigned char c) { return std::isalpha(c) != 0; }) &&
+         std::any_of(ending.begin(), ending.end(), [](char c) { return isLetter(c); }) &&
          std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < ' '; });
 }
 

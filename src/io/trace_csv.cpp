@@ -1,11 +1,11 @@
 #include "io/trace_csv.h"
+#include "base/text.h"
 
 #include <fmt/core.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <iterator>
 #include <set>
 #include <span>
@@ -48,7 +48,7 @@ TraceColumnNames columnsOf(const TraceColumns& columns) {
   const auto named = [&](std::string name, const char* otherwise) {
     if (name.empty()) name = otherwise;
     std::replace_if(
-        name.begin(), name.end(), [](unsigned char c) { return c > 127 || (std::isalnum(c) == 0); }, '_');
+        name.begin(), name.end(), [](char c) { return !isLetterOrDigit(c); }, '_');
     std::string column = name;
     for (int number = 2; !taken.insert(column).second; ++number) column = fmt::format("{}_{}", name, number);
     return column;

@@ -11,7 +11,8 @@ namespace hl {
 /// Afterwards it is clear of all objects, unless several pinch it: then its centre is still outside each of them, as
 /// long as there is room for a point. Moving objects never pass the proxy, at any speed. A mesh that deforms by more
 /// than convergence::kMaxDeformRadii proxy radii between two ticks may pass it. RT-safe; at most
-/// convergence::kMaxCarrySteps sweeps or small steps.
+/// convergence::kMaxCarrySteps sweeps or small steps, whose cost the tick's limit of work counts too: after a costly
+/// carry the tick makes one step.
 void carry(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
 
 }  // namespace hl

@@ -38,7 +38,7 @@ Vec3 deformedBy(const PushedProxy& proxy, const MeshTransition& way, std::int64_
 
 Vec3 PushedProxy::carriedTo(std::int64_t time_ns) const {
   if (carrier == kNoInstance) return position;
-  const Instance& by = snapshot.instances[carrier];
+  const Instance& by = snapshot().instances[carrier];
   Vec3 place = by.poses().at(now_ns).toObject(position);
   if (const MeshTransition* const way = by.transitionAt(now_ns)) place += deformedBy(*this, *way, time_ns);
   return by.poses().at(time_ns).toWorld(place);
@@ -49,10 +49,10 @@ Box PushedProxy::regionOf(const Vec3& way_end) const {
   return {position.cwiseMin(way_end) - margin, position.cwiseMax(way_end) + margin};
 }
 
-std::uint32_t movingInstance(const Snapshot& snapshot, std::uint64_t key) {
+std::uint32_t movingInstance(const SceneAt& scene, std::uint64_t key) {
   std::uint32_t number = 0;
-  if (key == 0 || !snapshot.find(key, number)) return kNoInstance;
-  const Instance& found = snapshot.instances[number];
+  if (key == 0 || !scene.snapshot().find(key, number) || scene.leavesOut(number)) return kNoInstance;
+  const Instance& found = scene.snapshot().instances[number];
   return found.poses().moves() || found.mesh_motion ? number : kNoInstance;
 }
 

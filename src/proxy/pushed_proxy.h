@@ -12,9 +12,10 @@ namespace hl {
 
 inline constexpr std::uint32_t kNoInstance = 0xffffffff;
 
-/// World frame. The snapshot must outlive it. RT-safe.
+/// World frame. The scene must outlive it; what it leaves out does not push. RT-safe.
 struct PushedProxy {
-  SceneAt scene() const { return {snapshot, now_ns}; }
+  const Snapshot& snapshot() const { return at_end.snapshot(); }
+  SceneAt scene() const { return {at_end, now_ns}; }
   /// Position of the proxy at `time_ns`, carried by its carrier from now on.
   Vec3 carriedTo(std::int64_t time_ns) const;
   /// Region around the way from the proxy to `way_end`. Objects outside it are not considered.
@@ -23,14 +24,16 @@ struct PushedProxy {
   template <typename Visit>
   void forEachNear(const Vec3& way_end, const Visit& visit) const {
     const Box region = regionOf(way_end);
-    snapshot.near.visitMet(region, [&](std::uint32_t i) {
-      if (!snapshot.instances[i].elsewhere(region)) visit(i, snapshot.instances[i]);
+    snapshot().near.visitMet(region, [&](std::uint32_t i) {
+      const Instance& instance = snapshot().instances[i];
+      if (!at_end.leavesOut(i) && !instance.elsewhere(region)) visit(i, instance);
     });
   }
 
-  const Snapshot& snapshot;
+  std::int64_t end_ns() const { return at_end.time_ns(); }
+
+  const SceneAt& at_end;  ///< at the time of the next tick
   const Tolerances tolerance;
-  const std::int64_t end_ns;  ///< time of the next tick
   std::int64_t now_ns;
   Vec3 position;
   std::uint32_t carrier = kNoInstance;  ///< number of the instance; kNoInstance: none
@@ -42,7 +45,7 @@ struct Advance {
   std::uint32_t met = kNoInstance;  ///< the instance whose impact ends the advance
 };
 
-/// Number of the instance with this key, if it moves or deforms; else kNoInstance.
-std::uint32_t movingInstance(const Snapshot& snapshot, std::uint64_t key);
+/// Number of the instance with this key, if it moves or deforms and is not left out; else kNoInstance.
+std::uint32_t movingInstance(const SceneAt& scene, std::uint64_t key);
 
 }  // namespace hl

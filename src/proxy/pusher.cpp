@@ -6,14 +6,14 @@
 
 namespace hl {
 
-Pusher::Pusher(const ProxyState& state, const Snapshot& snapshot, const ProxySettings& settings, std::int64_t end_ns)
-    : proxy_{snapshot,       Tolerances::of(settings.radius, snapshot.extent), end_ns, state.time_ns,
-             state.position, movingInstance(snapshot, state.carrier)} {}
+Pusher::Pusher(const ProxyState& state, const SceneAt& scene, const ProxySettings& settings)
+    : proxy_{scene, Tolerances::of(settings.radius, scene.extent()), state.time_ns, state.position,
+             movingInstance(scene, state.carrier)} {}
 
 Vec3 Pusher::run() {
-  for (int left = convergence::kMaxCarrySteps; left > 0 && proxy_.now_ns < proxy_.end_ns; --left)
+  for (int left = convergence::kMaxCarrySteps; left > 0 && proxy_.now_ns < proxy_.end_ns(); --left)
     deformsNear(proxy_) ? step(left) : sweep(left);
-  goOnTo(proxy_.end_ns);
+  goOnTo(proxy_.end_ns());
   return proxy_.position;
 }
 
@@ -21,7 +21,7 @@ void Pusher::sweep(int left) {
   const Advance free = rigidSweep(proxy_);
   goOnTo(free.until_ns);
   if (free.met == kNoInstance) return;
-  const bool carries = proxy_.carrier == kNoInstance && proxy_.snapshot.instances[free.met].poses().moves();
+  const bool carries = proxy_.carrier == kNoInstance && proxy_.snapshot().instances[free.met].poses().moves();
   proxy_.carrier = carries ? free.met : kNoInstance;
   if (!carries) step(left);
 }

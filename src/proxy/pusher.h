@@ -16,10 +16,10 @@ namespace hl {
 /// For one interval between two ticks. RT-safe.
 class Pusher {
  public:
-  /// From state.time_ns, with the proxy at state.position, to `end_ns`.
-  Pusher(const ProxyState& state, const Snapshot& snapshot, const ProxySettings& settings, std::int64_t end_ns);
+  /// From state.time_ns, with the proxy at state.position, to the time of `scene`, which must outlive it.
+  Pusher(const ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
 
-  /// Returns the position of the proxy at `end_ns`.
+  /// Returns the position of the proxy then.
   Vec3 run();
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 // Time until which each object nearby stays on one screw and turns little enough for a straight sweep.
 std::int64_t straightUntil(const PushedProxy& proxy) {
-  std::int64_t until_ns = proxy.end_ns;
+  std::int64_t until_ns = proxy.end_ns();
   proxy.forEachNear(proxy.position, [&](std::uint32_t, const Instance& instance) {
     until_ns = instance.poses().straightUntil(proxy.now_ns, until_ns, accuracy::kMaxTurn_rad);
   });
@@ -33,7 +33,10 @@ Meeting firstMeeting(const PushedProxy& proxy, std::int64_t until_ns) {
     const Vec3 to = instance.poses().at(until_ns).toObject(carried);
     const Shape& shape = *instance.shape;
     Primitive last;
-    const auto read = [&](ElementId id) -> const Primitive& { return last = shape.primitive(id); };
+    const auto read = [&](ElementId id) -> const Primitive& {
+      proxy.at_end.countTest();
+      return last = shape.primitive(id);
+    };
     FirstImpact hit;
     if (!firstImpact(*shape.index, read, from, to - from, met_m, -1, hit)) return;
     if (hit.impact.t < first.part || (hit.impact.t == first.part && i < first.instance)) first = {hit.impact.t, i};

@@ -13,9 +13,9 @@ using convergence::kCloseIn;
 
 // Time until which each deforming mesh stays on one transition.
 std::int64_t oneWayUntil(const PushedProxy& proxy) {
-  std::int64_t until_ns = proxy.end_ns;
-  for (const std::uint32_t i : proxy.snapshot.deforming) {
-    const std::int64_t next_ns = proxy.snapshot.instances[i].mesh_motion->last().begin_ns();
+  std::int64_t until_ns = proxy.end_ns();
+  for (const std::uint32_t i : proxy.snapshot().deforming) {
+    const std::int64_t next_ns = proxy.snapshot().instances[i].mesh_motion->last().begin_ns();
     if (proxy.now_ns < next_ns) until_ns = std::min(until_ns, next_ns);
   }
   return until_ns;
@@ -42,6 +42,7 @@ double partUntilClose(const PushedProxy& proxy, const Instance& instance, std::i
   const double within = (1 - kCloseIn) * proxy.tolerance.reach + way_m;
   double part = 1;
   way->index(begin, end).overlap(place, within, [&](ElementId primitive) {
+    proxy.at_end.countTest();
     const double distance = closestPoint(way->primitive(primitive, begin), place).distance;
     const double most = (end - begin) * way->length_m(primitive) + way_m;
     if (kCloseIn * distance < part * most) part = kCloseIn * distance / most;
@@ -66,11 +67,12 @@ double freePart(const PushedProxy& proxy, std::int64_t until_ns) {
 }  // namespace
 
 bool deformsNear(const PushedProxy& proxy) {
-  const Snapshot& snapshot = proxy.snapshot;
+  const Snapshot& snapshot = proxy.snapshot();
   if (proxy.now_ns >= snapshot.deforms_until_ns) return false;
-  const Box region = proxy.regionOf(proxy.carriedTo(proxy.end_ns));
+  const Box region = proxy.regionOf(proxy.carriedTo(proxy.end_ns()));
   return std::any_of(snapshot.deforming.begin(), snapshot.deforming.end(), [&](std::uint32_t i) {
-    return snapshot.instances[i].transitionAt(proxy.now_ns) != nullptr && snapshot.reach[i].meets(region);
+    return !proxy.at_end.leavesOut(i) && snapshot.instances[i].transitionAt(proxy.now_ns) != nullptr &&
+           snapshot.reach[i].meets(region);
   });
 }
 

@@ -9,9 +9,9 @@
 namespace hl {
 
 /// N/m, above 0: what forces in N, N s/m and N/m at the hand are divided by to get lengths. K s of the last tick; of a
-/// surface without stiffness the least.
+/// spring or a surface without stiffness the least.
 inline double feltSpring_N_m(const ProxySettings& settings, const ProxyState& state) {
-  return settings.spring_N_m * std::max(state.stiffness, accuracy::kMinStiffness);
+  return std::max(settings.spring_N_m, accuracy::kMinSpring_N_m) * std::max(state.stiffness, accuracy::kMinStiffness);
 }
 
 /// J, for a spring of stiffness K `spring_N_m` at the hand, reduced by the factor `stiffness` (0..1).

@@ -71,6 +71,8 @@ inline constexpr double kCrease_rad = 0.01;
 inline constexpr double kStuck_s = 0.020;
 /// A spring of a smaller part s of K is taken for this one where a force is divided by it.
 inline constexpr double kMinStiffness = 1e-6;
+/// N/m: the same of K, which may be 0.
+inline constexpr double kMinSpring_N_m = 1e-6;
 /// Part of the radius by which the goal of a proxy that a surface holds is below the surface at most (adhesion.h).
 inline constexpr double kMaxLowered = 0.5;
 /// Maximum number of iterations for the slip that balances the Stribeck curve.

@@ -3,9 +3,9 @@
 #include <time.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/clock.h"
+#include "base/text.h"
 #include "ros/hand_motion.h"
 
 namespace hl {
@@ -29,7 +29,7 @@ std::int64_t toSystem_ns() {
 std::string rosName(const std::string& device) {
   std::string name;
   for (const char c : device) {
-    const char allowed = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    const char allowed = isLetterOrDigit(c) ? c : '_';
     if (allowed != '_' || !name.ends_with('_')) name += allowed;
   }
   return name.empty() ? "hand" : name;

@@ -73,6 +73,9 @@ SceneAt::SceneAt(const SceneAt& of, std::span<const std::uint64_t> left_out)
   }
 }
 
+SceneAt::SceneAt(const SceneAt& of, std::int64_t time_ns)
+    : snapshot_(of.snapshot_), time_ns_(time_ns), recent_(own_.emplace()), left_out_(of.left_out_), cost_(of.cost_) {}
+
 Primitive SceneAt::read(PrimitiveId id) const {
   const Instance& of = instance(id);
   if (const MeshTransition* const way = of.transitionAt(time_ns_))

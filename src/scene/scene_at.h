@@ -42,6 +42,8 @@ class SceneAt {
   /// The same scene and time without the objects of these keys, at most kMaxLeftOut that are in it. It adds to the
   /// cost of `of`, which must outlive it.
   SceneAt(const SceneAt& of, std::span<const std::uint64_t> left_out);
+  /// The same objects at another time. It adds to the cost of `of`, which must outlive it.
+  SceneAt(const SceneAt& of, std::int64_t time_ns);
   SceneAt(const SceneAt&) = delete;
   SceneAt& operator=(const SceneAt&) = delete;
 
@@ -55,6 +57,10 @@ class SceneAt {
   /// One more exact test, that was made beside the queries.
   void countTest() const { ++cost_.primitives; }
 
+  /// Whether it has no part in the queries, by its number.
+  bool leavesOut(std::uint32_t instance) const {
+    return std::find(left_out_.begin(), left_out_.end(), instance) != left_out_.end();
+  }
   const Instance& instance(PrimitiveId id) const { return snapshot_.instances[id.instance]; }
   /// The shape that numbers the primitives of the instance at this time.
   const Shape& shape(PrimitiveId id) const { return instance(id).shapeAt(time_ns_); }
@@ -100,9 +106,6 @@ class SceneAt {
                         SceneImpact& out) const;
 
  private:
-  bool leavesOut(std::uint32_t instance) const {
-    return std::find(left_out_.begin(), left_out_.end(), instance) != left_out_.end();
-  }
   Primitive read(PrimitiveId id) const;
   template <typename Search, typename Visit>
   void searchNear(const Vec3& centre, double distance, const Search& search, const Visit& visit_one) const;

@@ -52,7 +52,7 @@ struct Instance {
   std::uint64_t replaced_in = 0;
   std::shared_ptr<const Label> label{};  ///< for pages; null: its file, or its client, gives it none
 
-  /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone.
+  /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone (others: still_scene.h).
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }
   bool movesAsBody() const { return body && body->poses; }
   /// Whether it is a body that is not in `region` now, though it may be at another time. As poses().

@@ -44,7 +44,11 @@ class PressedList {
     };
     auto found = std::find_if(all_.begin(), all_.end(), same);
     if (found == all_.end() && all_.size() >= kMaxPressed) found = nearest(contact);
-    if (found == all_.end()) found = all_.insert(found, Pressed{contact, {}, 0, {}, {}});
+    if (found == all_.end()) {
+      Pressed fresh;
+      fresh.first = contact;
+      found = all_.insert(found, fresh);
+    }
     found->add(contact);
   }
   const std::vector<Pressed>& all() const { return all_; }

@@ -136,14 +136,32 @@ std::shared_ptr<ScenePublisher::ClientScene> ScenePublisher::takeReplaced(const 
 }
 
 bool ScenePublisher::replaceBase(const std::shared_ptr<const Snapshot>& base) {
+  const WorldParts parts = partsOf(*base);
+  {
+    const std::lock_guard lock(mutex_);
+    admit(parts);
+    base_parts_ = parts;
+  }
   const std::uint64_t number = base_.replace(base);
   {
     const std::lock_guard lock(mutex_);
-    base_parts_ = partsOf(*base);
     dirty_ = true;
   }
   changed_.notify_all();
   return base_.awaitShown(number);
+}
+
+void ScenePublisher::admitBase(const Snapshot& base) const {
+  const WorldParts parts = partsOf(base);
+  const std::lock_guard lock(mutex_);
+  admit(parts);
+}
+
+// Holding the mutex.
+void ScenePublisher::admit(const WorldParts& base) const {
+  WorldParts all = partsOfAllBut(nullptr);
+  all += base;
+  if (all.bodies > 0) checkBodiesOfAll(all, {kMaxBodies, kMaxJoints}, loops_.devices());
 }
 
 void ScenePublisher::setIso(std::uint64_t surface, const IsoChoice& choice) {
@@ -241,13 +259,21 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
   }
 }
 
+// Of all clients but this one and the one that it replaces. Holding the mutex.
+WorldParts ScenePublisher::partsOfAllBut(const ClientScene* client) const {
+  WorldParts all;
+  for (const auto& other : clients_) {
+    const bool replaced = client != nullptr && other == client->replaced_;
+    if (other.get() != client && !other->removed_ && !replaced) all += other->bodies_.parts;
+  }
+  return all;
+}
+
 // Holding the mutex.
 void ScenePublisher::admitBodies(ClientScene& client, const WorldParts& parts) const {
-  WorldParts all = base_parts_;
+  WorldParts all = partsOfAllBut(&client);
+  all += base_parts_;
   all += parts;
-  for (const auto& other : clients_) {
-    if (other.get() != &client && !other->removed_ && other != client.replaced_) all += other->bodies_.parts;
-  }
   if (parts.bodies > 0) checkBodiesOfAll(all, {client.limits_.bodies, client.limits_.joints}, loops_.devices());
 }
 

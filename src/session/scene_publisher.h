@@ -71,8 +71,12 @@ class ScenePublisher {
   HierarchyCounts counts() const;
 
   /// Shows `base` in the place of the one before, fitted to the devices anew, as soon as the loops have taken the scene
-  /// before. Returns when it is shown; false: the publisher has stopped before. Any thread but the publisher's own.
+  /// before. Returns when it is shown; false: the publisher has stopped before. Throws hl::Error, and changes nothing,
+  /// as admitBase(). Any thread but the publisher's own.
   bool replaceBase(const std::shared_ptr<const Snapshot>& base);
+  /// Throws hl::Error where the bodies and joints of `base` and those of all clients, also of those that have gone and
+  /// left their objects, would be more than a world can have. Any thread.
+  void admitBase(const Snapshot& base) const;
 
   /// Another value for a surface of a volume of the base, by its key in the scene that is shown; 0: the only one. It is
   /// the same object, with the same surface; nothing else changes. Shown as soon as the loops have taken the scene
@@ -95,6 +99,8 @@ class ScenePublisher {
   bool waitForLoops();
   std::vector<Part> takeParts();
   void giveBack(std::vector<Part>& parts);
+  WorldParts partsOfAllBut(const ClientScene* client) const;
+  void admit(const WorldParts& base) const;
   void admitBodies(ClientScene& client, const WorldParts& parts) const;
   std::int64_t assemble(std::vector<Part>& parts, std::int64_t begin_ns, std::vector<Instance>& instances) const;
   std::shared_ptr<const Snapshot> makeNext(std::vector<Part>& parts);

@@ -97,6 +97,7 @@ void TouchWorld::stop() {
 void TouchWorld::replaceBase(const std::shared_ptr<const Snapshot>& base) {
   checkHandsAtBodies(*base, devices_.size());
   worldOf(*base);  // one that cannot be made is refused here
+  publisher_.admitBase(*base);
   MemoryShare share(memory_);
   share.take(bytesOfBase(*base));
   const bool shown = showBase(base);

@@ -120,7 +120,7 @@ std::optional<Vec3> HandMover::strokingGoal() {
   if (script_) return script_->at(time_s);
   const std::shared_ptr<const Snapshot> scene = scene_();
   if (scene->bounds.empty()) return {};
-  return exploration_.goal({*scene, now_ns}, exploringHand(), time_s);
+  return exploration_.goal({still_.of(scene), now_ns}, exploringHand(), time_s);
 }
 
 ExploringHand HandMover::exploringHand() {

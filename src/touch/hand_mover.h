@@ -13,6 +13,7 @@
 #include "device/hand_script.h"
 #include "device/simulated_hand.h"
 #include "scene/snapshot.h"
+#include "scene/still_scene.h"
 #include "touch/exploration.h"
 #include "touch/live_settings.h"
 #include "touch/loop_exchange.h"
@@ -84,6 +85,7 @@ class HandMover {
   std::int64_t begin_ns_ = 0, pressed_ns_ = 0;
   std::atomic<bool> exploring_, firm_;
   Exploration exploration_;  // of the thread
+  StillScene still_;         // too
   std::mutex mutex_;         // of the next; the real-time loops never see it
   Commands commands_;
   std::atomic<double> aside_top_D_{kFree};  // m; kFree: it is where it is commanded to be

@@ -22,7 +22,10 @@ class LoopChooser {
   explicit LoopChooser(std::int64_t servo_period_ns) : room_ns_(servo_period_ns / 2) {}
 
   Turn turn() const { return turn_.load(std::memory_order_acquire); }
-  void give(Turn turn) { turn_.store(turn, std::memory_order_release); }
+  void give(Turn turn) {
+    debt_ = turn == Turn::kProxy ? kBack : 0;
+    turn_.store(turn, std::memory_order_release);
+  }
   /// How long the tick took; the next one may be the other loop's.
   void took(std::int64_t work_ns) {
     const Turn turn = turn_.load(std::memory_order_relaxed);
@@ -31,7 +34,6 @@ class LoopChooser {
     const std::int64_t over = work_ns / (servo ? room_ns_ : room_ns_ / 2);
     debt_ = std::clamp<std::int64_t>(debt_ + (over > 0 ? std::min(over, kMax) * kCost : -1), 0, kMax);
     if (servo && debt_ == kMax) {
-      debt_ = kBack;
       give(Turn::kProxy);
     } else if (!servo && debt_ == 0) {
       give(Turn::kServo);

@@ -1,11 +1,11 @@
 #include "wire/json_words.h"
+#include "base/text.h"
 
 #include <google/protobuf/descriptor.h>
 #include <hl.pb.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 #include <utility>
 
@@ -95,9 +95,8 @@ std::string plainJsonWords(const std::string& said) {
 std::string jsonPlace(const std::string& place) {
   std::string names;
   for (std::size_t i = 0; i < place.size(); ++i) {
-    const bool joins =
-        place[i] == '_' && i + 1 < place.size() && std::isalnum(static_cast<unsigned char>(place[i + 1])) != 0;
-    names += joins ? static_cast<char>(std::toupper(static_cast<unsigned char>(place[++i]))) : place[i];
+    const bool joins = place[i] == '_' && i + 1 < place.size() && isLetterOrDigit(place[i + 1]);
+    names += joins ? raised(place[++i]) : place[i];
   }
   return names;
 }

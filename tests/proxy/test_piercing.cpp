@@ -12,6 +12,7 @@
 #include "base/realtime_guard.h"
 #include "cases.h"
 #include "effect_scenes.h"
+#include "moving_scenes.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
@@ -53,6 +54,28 @@ TEST(Piercing, TwoNewtonLetGoAtTwoMillimetresAndTwoMillijouleAreLost) {
   EXPECT_NEAR((state.position - deeper).norm(), 0, kRounding_m);
   EXPECT_NEAR(state.ledger.dissipated_J - before_J, 2.0e-3, 1e-6);
   EXPECT_EQ(state.ledger.injected_J, 0);
+}
+
+// What moves pushes the proxy between two ticks; what it has pierced does not, wherever else something moves.
+TEST(Piercing, WhatMovesElsewhereChangesNothing) {
+  constexpr std::int64_t kTick_ns = 1'000'000, kEnd_ns = 1000 * kTick_ns;
+  const Motion far = Motion(test::at({5, 5, 5})).then(test::at({6, 5, 5}), 0, kEnd_ns);
+  const Instance floor = test::place(1, test::floorModel(), Motion());
+  const auto alone = makeSnapshot({floor}),
+             beside = makeSnapshot({floor, test::place(2, test::boxModel(Vec3::Constant(0.1)), far)});
+  const ProxySettings settings = piercing(1);
+  ProxyState still = startProxy(*alone, settings, {0, 0.004, 0}), moved = startProxy(*beside, settings, {0, 0.004, 0});
+  int within = 0;
+  for (int i = 1; i < 400; ++i) {
+    const std::int64_t now_ns = i * kTick_ns;
+    const Vec3 finger(0, 0.004 - 2e-5 * i, 0);
+    const TickReport judge = tick(still, {*alone, now_ns}, settings, finger);
+    const TickReport report = tick(moved, {*beside, now_ns}, settings, finger);
+    ASSERT_LT((still.position - moved.position).norm(), 10 * kRounding_m) << i;
+    EXPECT_NEAR(report.moved_J, judge.moved_J, 1e-12) << i;
+    within += !moved.pierced.empty() && std::abs(moved.position.y()) < kRadius ? 1 : 0;
+  }
+  EXPECT_GT(within, 20) << "it has been in the surface that it pierced";
 }
 
 // What has been pierced is in the way again as soon as the proxy no longer overlaps it, from its other side too.

@@ -164,5 +164,26 @@ TEST(Presliding, SpringsOfOtherContactsStoreNoMore) {
   EXPECT_EQ(PreslidingSprings{}.on(500).stretch_m, Vec3(Vec3::Zero()));
 }
 
+// The user may set the spring to nothing while the finger is in contact, and give it back.
+TEST(Presliding, WithoutASpringTheProxyStaysOutside) {
+  const auto scene = test::snapshotOf(test::floorModel());
+  for (const double spring_N_m : {0.0, 1e-300, 1e-12}) {
+    ProxySettings settings = settingsOf({0.8, 0.5, 2000});
+    ProxyState state = startProxy(*scene, settings, {0, 0.01, 0});
+    const auto go = [&](double from, double to) {
+      for (int i = 0; i < 100; ++i) {
+        tick(state, *scene, settings, {from + (to - from) * i / 100, -0.004, 1e-4 * i});
+        ASSERT_TRUE(state.position.allFinite());
+        ASSERT_GE(state.position.y(), 0.999 * kRadius) << spring_N_m;
+      }
+    };
+    go(0, 0.004);
+    settings.spring_N_m = spring_N_m;
+    go(0.004, 0.02);
+    settings.spring_N_m = kK;
+    go(0.02, 0.03);
+  }
+}
+
 }  // namespace
 }  // namespace hl::test_presliding

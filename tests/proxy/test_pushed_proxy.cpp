@@ -11,8 +11,8 @@ namespace {
 constexpr double kRadius = 0.002;
 constexpr std::int64_t kMs = 1'000'000;
 
-PushedProxy proxyIn(const Snapshot& scene, const Vec3& position, std::uint32_t carrier) {
-  return {scene, Tolerances::of(kRadius, scene.extent), 10 * kMs, 2 * kMs, position, carrier};
+PushedProxy proxyIn(const SceneAt& at_end, const Vec3& position, std::uint32_t carrier) {
+  return {at_end, Tolerances::of(kRadius, at_end.extent()), 2 * kMs, position, carrier};
 }
 
 TEST(PushedProxy, OnlyWhatMovesOrBendsTakesItAlong) {
@@ -29,7 +29,7 @@ TEST(PushedProxy, WithoutACarrierItStandsStill) {
   const Motion moving = Motion().then(test::at({0, 0.1, 0}), 0, 10 * kMs);
   const auto scene = makeSnapshot({test::place(1, test::flatSheet(0), moving)});
   const Vec3 place(0, 0.02 + kRadius, 0);
-  EXPECT_EQ(proxyIn(*scene, place, kNoInstance).carriedTo(10 * kMs), place);
+  EXPECT_EQ(proxyIn({*scene, 10 * kMs}, place, kNoInstance).carriedTo(10 * kMs), place);
 }
 
 TEST(PushedProxy, ACarrierThatMovesKeepsItWhereItIsInItsFrame) {
@@ -37,7 +37,8 @@ TEST(PushedProxy, ACarrierThatMovesKeepsItWhereItIsInItsFrame) {
   const Motion moving = Motion().then(end, 0, 10 * kMs);
   const auto scene = makeSnapshot({test::place(1, test::flatSheet(0), moving)});
   const Vec3 own(0.003, kRadius, -0.004);
-  const PushedProxy proxy = proxyIn(*scene, moving.at(2 * kMs).toWorld(own), 0);
+  const SceneAt at_end(*scene, 10 * kMs);
+  const PushedProxy proxy = proxyIn(at_end, moving.at(2 * kMs).toWorld(own), 0);
   for (const std::int64_t t : {3 * kMs, 10 * kMs})
     EXPECT_NEAR((moving.at(t).toObject(proxy.carriedTo(t)) - own).norm(), 0, 1e-15);
 }
@@ -48,8 +49,9 @@ TEST(PushedProxy, AMeshThatBendsTakesItWhereTheTouchedPlaceGoes) {
   for (Vec3& p : drawn.positions) p.x() += 0.002;
   const auto scene = makeSnapshot({test::deforming(1, test::flatSheet(0), drawn, 0, 10 * kMs)});
   const Vec3 touching(0.0013, 0.0008 + 1.05 * kRadius, 0.0007), beyond = touching + Vec3(0, 0.1 * kRadius, 0);
-  EXPECT_NEAR((proxyIn(*scene, touching, 0).carriedTo(7 * kMs) - touching - Vec3(0.001, 0.002, 0)).norm(), 0, 1e-12);
-  EXPECT_EQ(proxyIn(*scene, beyond, 0).carriedTo(7 * kMs), beyond) << "what it does not touch leaves it";
+  EXPECT_NEAR((proxyIn({*scene, 10 * kMs}, touching, 0).carriedTo(7 * kMs) - touching - Vec3(0.001, 0.002, 0)).norm(),
+              0, 1e-12);
+  EXPECT_EQ(proxyIn({*scene, 10 * kMs}, beyond, 0).carriedTo(7 * kMs), beyond) << "what it does not touch leaves it";
 }
 
 TEST(PushedProxy, OfTwoPlacesTouchedTheNearestDecides) {
@@ -61,7 +63,8 @@ TEST(PushedProxy, OfTwoPlacesTouchedTheNearestDecides) {
   };
   const auto scene = makeSnapshot({test::deforming(1, slope(0), slope(0.1), 0, 10 * kMs)});
   const Vec3 normal = Vec3(-0.5, 1, 0).normalized(), foot(0.0096, 0.0048, 0.0021);
-  const PushedProxy proxy = proxyIn(*scene, foot + kRadius * normal, 0);
+  const SceneAt at_end(*scene, 10 * kMs);
+  const PushedProxy proxy = proxyIn(at_end, foot + kRadius * normal, 0);
   // From 2 to 10 ms: 8/10 of 0.1 (x + 0.05). The triangles beyond x = 0.01 are touched too.
   EXPECT_NEAR(proxy.carriedTo(10 * kMs).z() - proxy.position.z(), 0.08 * 0.0596, 1e-9);
 }

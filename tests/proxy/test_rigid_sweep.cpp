@@ -20,7 +20,7 @@ constexpr double kRadius = 0.002;
 constexpr std::int64_t kMs = 1'000'000;
 
 Advance sweepIn(const Snapshot& scene, const Vec3& position, std::int64_t end_ns, std::uint32_t carrier = kNoInstance) {
-  return rigidSweep({scene, Tolerances::of(kRadius, scene.extent), end_ns, 0, position, carrier});
+  return rigidSweep({{scene, end_ns}, Tolerances::of(kRadius, scene.extent), 0, position, carrier});
 }
 
 Model plate() { return test::rectangle({-0.5, 0, 0.5}, {1, 0, 0}, {0, 0, -1}); }

@@ -17,8 +17,8 @@ constexpr double kRadius = 0.002;
 constexpr std::int64_t kMs = 1'000'000;
 constexpr int kManyLeft = 1'000'000;
 
-PushedProxy proxyIn(const Snapshot& scene, const Vec3& position, std::int64_t end_ns = 10 * kMs) {
-  return {scene, Tolerances::of(kRadius, scene.extent), end_ns, 0, position, kNoInstance};
+PushedProxy proxyIn(const SceneAt& at_end, const Vec3& position) {
+  return {at_end, Tolerances::of(kRadius, at_end.extent()), 0, position, kNoInstance};
 }
 
 std::shared_ptr<const Snapshot> rising(double to) {
@@ -27,38 +27,41 @@ std::shared_ptr<const Snapshot> rising(double to) {
 
 TEST(SmallStep, AMeshBendsNearWhereItsReachDoesWhileItBends) {
   const auto scene = rising(0.01);
-  EXPECT_TRUE(deformsNear(proxyIn(*scene, {0, 0.01 + 1.9 * kRadius, 0})));
-  EXPECT_FALSE(deformsNear(proxyIn(*scene, {0, 0.01 + 2.1 * kRadius, 0}))) << "beyond all its places";
-  PushedProxy later = proxyIn(*scene, {0, 0.01, 0}, 20 * kMs);
+  EXPECT_TRUE(deformsNear(proxyIn({*scene, 10 * kMs}, {0, 0.01 + 1.9 * kRadius, 0})));
+  EXPECT_FALSE(deformsNear(proxyIn({*scene, 10 * kMs}, {0, 0.01 + 2.1 * kRadius, 0}))) << "beyond all its places";
+  const SceneAt at_end(*scene, 20 * kMs);
+  PushedProxy later = proxyIn(at_end, {0, 0.01, 0});
   later.now_ns = 10 * kMs;
   EXPECT_FALSE(deformsNear(later)) << "it has come to rest";
-  EXPECT_FALSE(deformsNear(proxyIn(*makeSnapshot({test::place(1, test::flatSheet(0), Motion())}), {0, 0, 0})));
+  EXPECT_FALSE(
+      deformsNear(proxyIn({*makeSnapshot({test::place(1, test::flatSheet(0), Motion())}), 10 * kMs}, {0, 0, 0})));
 }
 
 TEST(SmallStep, AMeshTakesHalfOfTheRoomAndNoLess) {
   for (const double to : {0.005, 0.01, 0.1}) {
     const auto scene = rising(to);
-    const Advance free = smallStep(proxyIn(*scene, {0.001, kRadius, 0.002}), kManyLeft);
+    const Advance free = smallStep(proxyIn({*scene, 10 * kMs}, {0.001, kRadius, 0.002}), kManyLeft);
     const double height = to * static_cast<double>(free.until_ns) / 10e6;
     EXPECT_NEAR(height, convergence::kCloseIn * kRadius, 1e-7) << to;
   }
 }
 
 TEST(SmallStep, WhatStaysFarEnoughIsGoneAtOnce) {
-  EXPECT_EQ(smallStep(proxyIn(*rising(0.4 * kRadius), {0.001, kRadius, 0.002}), kManyLeft).until_ns, 10 * kMs);
+  EXPECT_EQ(smallStep(proxyIn({*rising(0.4 * kRadius), 10 * kMs}, {0.001, kRadius, 0.002}), kManyLeft).until_ns,
+            10 * kMs);
 }
 
 TEST(SmallStep, OfTheStepsLeftEachTakesItsShare) {
   const auto scene = rising(10);
   for (const int left : {1, 2, 5})
-    EXPECT_EQ(smallStep(proxyIn(*scene, {0.001, kRadius, 0.002}), left).until_ns, 10 * kMs / left);
+    EXPECT_EQ(smallStep(proxyIn({*scene, 10 * kMs}, {0.001, kRadius, 0.002}), left).until_ns, 10 * kMs / left);
 }
 
 TEST(SmallStep, ObjectsThatMoveTakeNoMoreThanHalfOfTheRoom) {
   const Model plate = test::rectangle({-0.5, 0, 0.5}, {1, 0, 0}, {0, 0, -1});
   const Motion up = Motion(test::at({0, -kRadius, 0})).then(test::at({0, 0.1, 0}), 0, 10 * kMs);
   const auto scene = makeSnapshot({test::place(1, plate, up)});
-  const double height = up.at(smallStep(proxyIn(*scene, Vec3::Zero()), kManyLeft).until_ns).origin.y();
+  const double height = up.at(smallStep(proxyIn({*scene, 10 * kMs}, Vec3::Zero()), kManyLeft).until_ns).origin.y();
   EXPECT_LE(height, -(1 - convergence::kCloseIn) * kRadius);
   EXPECT_GE(height, -(1 - 0.8 * convergence::kCloseIn) * kRadius) << "nor much less";
 }
@@ -69,7 +72,7 @@ TEST(SmallStep, ItEndsWhereAMeshTakesAnotherWay) {
   skin.mesh_motion = std::make_shared<MeshMotion>(skin.mesh_motion->then(next, 2 * kMs, 9 * kMs));
   skin.shape = next;
   const auto scene = makeSnapshot({skin});
-  EXPECT_EQ(smallStep(proxyIn(*scene, {0, kRadius, 0}), kManyLeft).until_ns,
+  EXPECT_EQ(smallStep(proxyIn({*scene, 10 * kMs}, {0, kRadius, 0}), kManyLeft).until_ns,
             scene->instances[0].mesh_motion->last().begin_ns());
 }
 
@@ -88,7 +91,7 @@ RC_GTEST_PROP(SmallStep, TheCentreKeepsHalfOfItsRoomAllTheWay, (std::uint64_t se
   const Vec3 place = random.inCube(0.02);
   const double room = judge::clearance({*scene, 0}, place, kRadius);
   RC_PRE(room > 0.01 * kRadius);
-  const Advance free = smallStep(proxyIn(*scene, place), kManyLeft);
+  const Advance free = smallStep(proxyIn({*scene, 10 * kMs}, place), kManyLeft);
   RC_ASSERT(free.until_ns > 0);
   for (int i = 1; i <= 40; ++i) {
     const double then = judge::clearance({*scene, free.until_ns * i / 40}, place, kRadius);

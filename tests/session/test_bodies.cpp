@@ -6,8 +6,12 @@
 #include <functional>
 #include <limits>
 
+#include "base/error.h"
 #include "bodies/body_problem.h"
+#include "bodies/test_worlds.h"
+#include "scene/scene_model.h"
 #include "session/bodies_client.h"
+#include "session/placed_client.h"
 #include "touch/session_views.h"
 
 namespace hl::test_bodies {
@@ -358,6 +362,37 @@ TEST(Bodies, HaveNoMoreHandsThanAWorldHas) {
 TEST(Bodies, AreCountedWithTheRoomThatTheirStepNeeds) {
   const std::size_t of_contact = sizeof(Meeting) + 2 * sizeof(Row) + sizeof(RememberedContact) + 2 * sizeof(Vec3);
   EXPECT_GE(kBody_bytes, 3 * kContactsPerBody * of_contact);
+}
+
+// Objects of a client that has gone stay, and count: a scene that has no room beside them is refused, and all goes on.
+TEST(Bodies, ASceneIsRefusedWhereTheBodiesOfThoseThatHaveGoneLeaveNoRoom) {
+  TouchServer server(makeSnapshot(std::vector<Instance>{}), settingsOf());
+  server.start();
+  const std::unique_ptr<PlacedClient> placed = server.placeClient();
+  const auto block = makeShape(test::boxModel(Vec3::Constant(test::kHalf_m)), HierarchyKind::kBvh);
+  BodySpec spec;
+  spec.mass_kg = 0.1;
+  PlacedList list;
+  for (std::uint32_t i = 0; i < kMaxBodies; ++i) {
+    PlacedShape one;
+    one.shape = block;
+    one.surfaces = surfacesOf(block);
+    one.pose.origin = Vec3(0.1 * (i % 40), 1, 0.1 * (i / 40));
+    one.key = i + 1;
+    one.session = placed->session();
+    one.body = std::make_shared<const BodySpec>(spec);
+    list.push_back(one);
+  }
+  placed->place(std::make_shared<const PlacedList>(list), 0);
+  SceneModel own;
+  own.model.name = "own";
+  own.bodies.resize(1);
+  own.bodies[0].name = "block";
+  own.bodies[0].model = test::boxModel(Vec3::Constant(test::kHalf_m));
+  own.bodies[0].spec.mass_kg = 0.1;
+  EXPECT_THROW(server.replaceScene(makeSnapshot(std::move(own))), Error);
+  Client client(server);
+  EXPECT_EQ(client.show(blocksFrame(1, {})), "") << "frames of others are shown as before";
 }
 
 }  // namespace

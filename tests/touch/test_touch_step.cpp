@@ -217,6 +217,17 @@ TEST(LoopChooser, TooManyLateTicksGoToTheProxyLoopAndComeBackWhenTheyFitAgain) {
   EXPECT_EQ(place.turn(), Turn::kServo);
 }
 
+TEST(LoopChooser, ATurnBeginsWithoutTheDebtsOfTheOneBefore) {
+  LoopChooser place(kMs);
+  for (int i = 0; i < 4; ++i) place.took(kMs * 6 / 10);
+  place.give(Turn::kGroup);
+  place.give(Turn::kServo);
+  for (int i = 0; i < 4; ++i) place.took(kMs * 6 / 10);
+  EXPECT_EQ(place.turn(), Turn::kServo);
+  place.took(kMs * 6 / 10);
+  EXPECT_EQ(place.turn(), Turn::kProxy) << "five late ones on end";
+}
+
 TEST(LoopChooser, OneTickOfManyPeriodsIsEnough) {
   LoopChooser place(kMs);
   place.took(100 * kMs);

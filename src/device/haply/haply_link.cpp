@@ -18,7 +18,6 @@
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/stream.hpp>
-#include <cctype>
 #include <chrono>
 #include <future>
 #include <optional>
@@ -32,6 +31,7 @@
 #include "base/guarded_thread.h"
 #include "base/printable.h"
 #include "base/realtime.h"
+#include "base/text.h"
 #include "base/url.h"
 #include "device/device_claim.h"
 #include "device/exchange.h"
@@ -59,7 +59,7 @@ using Socket = websocket::stream<beast::tcp_stream>;
 
 // As the service shows them: 049D.
 bool isHaplyId(const std::string& text) {
-  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+  const auto fits = [](char c) { return isLetterOrDigit(c) || c == '-' || c == '_'; };
   return !text.empty() && std::all_of(text.begin(), text.end(), fits);
 }
 

@@ -1,11 +1,11 @@
 #include "device/haply/haply_messages.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
 #include <boost/json/value.hpp>
 #include <boost/json/value_to.hpp>
-#include <cctype>
 #include <cstdlib>
 #include <utility>
 
@@ -98,7 +98,7 @@ void readTurn(const json::value* grip, HaplyState& state) {
 }  // namespace
 
 HaplyDialect haplyDialectOf(std::string_view version) {
-  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  const auto is_digit = [](char c) { return isDigit(c); };
   const std::string text(std::find_if(version.begin(), version.end(), is_digit), version.end());
   char* dot = nullptr;
   const long major = std::strtol(text.c_str(), &dot, 10);
