@@ -1,4 +1,5 @@
 // Model files through assimp: the scene graph flattened into one model.
+#include <assimp/config.h>
 #include <assimp/scene.h>
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -125,7 +126,7 @@ struct Import {
   const GltfHaptics& haptics;
   Model& model;
   AppearanceReader& appearance;
-  const BonePose& bones;
+  const BonePose* bones;  // null: of files whose bones assimp does not place where their nodes are
 };
 
 // A node without a material of its own has that of its parent.
@@ -137,8 +138,8 @@ void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& paren
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& mesh = *import.scene.mMeshes[node.mMeshes[i]];
     const std::size_t before = import.model.triangles.size();
-    if (mesh.HasBones())
-      appendBent(import.model, mesh, import.bones.bend(mesh, to_world), material);
+    if (mesh.HasBones() && import.bones != nullptr)
+      appendBent(import.model, mesh, import.bones->bend(mesh, to_world), material);
     else
       appendMesh(import.model, mesh, to_world, material);
     import.appearance.add(mesh, import.model.triangles.size() - before);
@@ -244,8 +245,9 @@ void addScene(const Assimp::Importer& importer, const ModelFile& file, const aiS
     throw std::bad_alloc();
   if (scene == nullptr) throw Error("cannot be understood: " + saidOf(file, importer.GetErrorString()));
   AppearanceReader appearance(*scene, file);
-  BonePose bones(*scene);
-  Import import{*scene, haptics, model, appearance, bones};
+  const BonePose bones(*scene);
+  const bool placed = file.ending != ".mdl";  // of Half-Life
+  Import import{*scene, haptics, model, appearance, placed ? &bones : nullptr};
   if (scene->mRootNode != nullptr) appendNode(import, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0, 0);
   model.appearance = appearance.take(model.warnings);
   addHaptics(model, std::move(haptics));
@@ -274,7 +276,8 @@ bool assimpReads(const std::string& ending) {
 SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report) {
   std::string refused;
   Assimp::Importer importer;
-  importer.SetProgressHandler(new Progress(report));  // owned by the importer
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // a skeleton without a mesh is nothing to touch
+  importer.SetProgressHandler(new Progress(report));                    // owned by the importer
   auto* folder = new OwnFolder(file.path, refused);
   importer.SetIOHandler(folder);  // too; also for what is read from memory
   Model model;
