@@ -1,9 +1,11 @@
 #include "cad/cad_mesh.h"
 
 #include <fmt/core.h>
+#include <BRepBndLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_Triangulation.hxx>
 #include <ShapeAnalysis_ShapeTolerance.hxx>
@@ -27,9 +29,15 @@ namespace {
 
 constexpr double kEstimatePart = 0.1, kMeshPart = 0.9;  // of the whole, at their ends
 
-// Of a first, coarse mesh: a chord of it is this many times as far from its curve. The angle goes with the root of it.
+// Of the coarse mesh that shows how large the fine one would be: a chord of it is this many times as far from its
+// curve. The angle goes with the root of it.
 constexpr double kCoarse = 64;
-constexpr double kMax_s = 90;  // of the processor, for a mesh: the reading process has 120
+// Of a shape that is large for its deflection that mesh may be too much itself. The first is no finer than this part of
+// the shape, each one after it by kFiner.
+constexpr double kFirst = 1e-3, kFiner = 8;
+// Of the processor, for a mesh: the reading process has 120 s. Where nobody has asked for a deflection, nobody is to
+// wait for so long.
+constexpr double kMost_s = 90, kUnasked_s = 10;
 
 void makeMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, const Message_ProgressRange& progress) {
   IMeshTools_Parameters parameters;
@@ -51,32 +59,62 @@ struct FaceEstimate {
   double growth = 1;
 };
 
+// Of a mesh.
+struct MeshLimits {
+  std::size_t triangles = 0;
+  double time_s = kMost_s;  // of the processor
+};
+
 // What a coarse mesh shows of finer ones.
 struct MeshEstimate {
-  std::vector<FaceEstimate> faces;
+  double coarse_m = 0;  // its deflection
   double coarse_s = 0;  // of the processor
+  std::vector<FaceEstimate> faces;
 
-  /// Of a mesh with a deflection of 1 / `ratio` of the coarse one's.
-  double triangles(double ratio) const {
+  double triangles(double deflection_m) const {
     double sum = 0;
-    for (const FaceEstimate& face : faces) sum += face.triangles * std::pow(ratio, face.growth);
+    for (const FaceEstimate& face : faces) sum += face.triangles * std::pow(coarse_m / deflection_m, face.growth);
     return sum;
   }
-  double time_s(double ratio) const { return coarse_s * triangles(ratio) / std::max(1.0, triangles(1)); }
-  bool fits(double ratio, std::size_t most_triangles) const {
-    return triangles(ratio) <= static_cast<double>(most_triangles) && time_s(ratio) <= kMax_s;
+  double time_s(double deflection_m) const { return coarse_s * work(deflection_m) / std::max(1.0, work(coarse_m)); }
+  bool fits(double deflection_m, const MeshLimits& most) const {
+    return triangles(deflection_m) <= static_cast<double>(most.triangles) && time_s(deflection_m) <= most.time_s;
+  }
+  /// The finest one from this on that fits.
+  double finestThatFits_m(double deflection_m, const MeshLimits& most) const {
+    while (!fits(deflection_m, most) && deflection_m < kMaxDeflection_m) deflection_m *= 2;
+    return deflection_m;
+  }
+  /// The same with the growth from a mesh still coarser to this one: where angles decide, it is less.
+  bool fitsAsItGrew(const MeshEstimate& coarser, double deflection_m, const MeshLimits& most) const {
+    const double growth =
+        std::log(coarseTriangles() / coarser.coarseTriangles()) / std::log(coarser.coarse_m / coarse_m);
+    const double more = std::pow(coarse_m / deflection_m, std::clamp(growth, 0.0, 1.0));
+    return more * coarseTriangles() <= static_cast<double>(most.triangles) && more * coarse_s <= most.time_s;
+  }
+
+ private:
+  double coarseTriangles() const { return std::max(1.0, triangles(coarse_m)); }
+  // In triangles of small faces. Of a face of n it is n (1 + n / 70 000): measured of a sphere of 18 000 to 590 000.
+  double work(double deflection_m) const {
+    constexpr double kOfTwiceTheTime = 70'000;
+    double sum = 0;
+    for (const FaceEstimate& face : faces) {
+      const double of_face = face.triangles * std::pow(coarse_m / deflection_m, face.growth);
+      sum += of_face * (1 + of_face / kOfTwiceTheTime);
+    }
+    return sum;
   }
 };
 
 double processorTime_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-MeshEstimate estimateMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, CadProgress& progress) {
+MeshEstimate estimateBy(double coarse_m, const TopoDS_Shape& shape, const CadMeshing& meshing,
+                        const Message_ProgressRange& progress) {
   constexpr double kWidest_rad = 1;
-  const double begin_s = processorTime_s();
-  makeMesh(shape, {kCoarse * meshing.deflection_m, std::min(kWidest_rad, std::sqrt(kCoarse) * meshing.angle_rad)},
-           progress.begin());
-  MeshEstimate estimate;
-  estimate.coarse_s = processorTime_s() - begin_s;
+  const double begin_s = processorTime_s(), wider = std::sqrt(coarse_m / meshing.deflection_m);
+  makeMesh(shape, {coarse_m, std::min(kWidest_rad, wider * meshing.angle_rad)}, progress);
+  MeshEstimate estimate{coarse_m, processorTime_s() - begin_s, {}};
   for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
     const TopoDS_Face face = TopoDS::Face(at.Current());
     TopLoc_Location place;
@@ -87,18 +125,45 @@ MeshEstimate estimateMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, 
   return estimate;
 }
 
+double sizeOf_m(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box);
+  return box.IsVoid() ? 0 : kCadUnit_m * std::sqrt(box.SquareExtent());
+}
+
+// Ends where it is seen that the mesh does not fit.
+MeshEstimate estimateMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, const MeshLimits& most,
+                          const std::function<void(double)>& report) {
+  const double finest_m = kCoarse * meshing.deflection_m;
+  std::optional<MeshEstimate> coarser;
+  for (double coarse_m = std::max(finest_m, kFirst * sizeOf_m(shape));;
+       coarse_m = std::max(finest_m, coarse_m / kFiner)) {
+    CadProgress progress(report, 0, kEstimatePart);
+    MeshEstimate estimate = estimateBy(coarse_m, shape, meshing, progress.begin());
+    const bool too_large = coarser && !estimate.fits(meshing.deflection_m, most) &&
+                           !estimate.fitsAsItGrew(*coarser, meshing.deflection_m, most);
+    if (coarse_m <= finest_m || too_large) return estimate;
+    coarser = std::move(estimate);
+  }
+}
+
 // Throws if a mesh as it is asked for would have too many triangles or take too long.
-void requireFits(const MeshEstimate& estimate, const CadMeshing& meshing, std::size_t most) {
-  if (estimate.fits(kCoarse, most)) return;
-  double deflection_m = meshing.deflection_m;
-  while (!estimate.fits(kCoarse * meshing.deflection_m / deflection_m, most) && deflection_m < kMaxDeflection_m)
-    deflection_m *= 2;
-  throw Error(
-      fmt::format("makes about {:.2g} million triangles at a deflection of {:.2g} m, in {:.0f} s; at most {:.2g} "
-                  "million in {:.0f} s "
-                  "can be: --deflection {:.2g} fits",
-                  1e-6 * estimate.triangles(kCoarse), meshing.deflection_m, estimate.time_s(kCoarse),
-                  1e-6 * static_cast<double>(most), kMax_s, deflection_m));
+void requireFits(const MeshEstimate& estimate, const CadMeshing& meshing, const MeshLimits& most) {
+  if (estimate.fits(meshing.deflection_m, most)) return;
+  throw Error(fmt::format(
+      "makes about {:.2g} million triangles at a deflection of {:.2g} m, in {:.0f} s; at most {:.2g} "
+      "million in {:.0f} s "
+      "can be: --deflection {:.2g} fits",
+      1e-6 * estimate.triangles(meshing.deflection_m), meshing.deflection_m, estimate.time_s(meshing.deflection_m),
+      1e-6 * static_cast<double>(most.triangles), most.time_s, estimate.finestThatFits_m(meshing.deflection_m, most)));
+}
+
+std::string coarserWarning(const MeshEstimate& estimate, const CadMeshing& meshing) {
+  const double usual_m = CadMeshing{}.deflection_m;
+  return fmt::format(
+      "is meshed with a deflection of {:.2g} m, as that of {:.2g} m would make {:.2g} million triangles in {:.0f} s: "
+      "--deflection chooses another",
+      meshing.deflection_m, usual_m, 1e-6 * estimate.triangles(usual_m), estimate.time_s(usual_m));
 }
 
 std::size_t countOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
@@ -177,7 +242,7 @@ Model collectMesh(const CadShape& cad, const CadMeshing& meshing, const std::fun
 
 // Triangles may be farther from their surface than edges from their curves: then finer edges are tried, as long as that
 // fits.
-Model meshWithin(const CadShape& cad, const CadMeshing& meshing, const MeshEstimate& estimate, std::size_t most,
+Model meshWithin(const CadShape& cad, const CadMeshing& meshing, const MeshEstimate& estimate, const MeshLimits& most,
                  const std::function<void(double)>& report) {
   constexpr int kTries = 3;
   constexpr double kMargin = 0.9, kFinest = 0.25;
@@ -190,7 +255,7 @@ Model meshWithin(const CadShape& cad, const CadMeshing& meshing, const MeshEstim
     const CadReading& reading = *model.reading.cad;
     if (i == kTries || reading.error_m <= meshing.deflection_m + reading.tolerance_m) return model;
     finer *= std::max(kFinest, kMargin * meshing.deflection_m / reading.error_m);
-    if (!estimate.fits(kCoarse / finer, most)) return model;
+    if (!estimate.fits(finer * meshing.deflection_m, most)) return model;
   }
 }
 
@@ -200,10 +265,15 @@ Model meshCad(const CadShape& cad, const CadMeshing& meshing, const std::functio
               std::size_t most_triangles) {
   try {
     BRepTools::Clean(cad.shape);
-    CadProgress progress(report, 0, kEstimatePart);
-    const MeshEstimate estimate = estimateMesh(cad.shape, meshing, progress);
-    requireFits(estimate, meshing, most_triangles);
-    return meshWithin(cad, meshing, estimate, most_triangles, report);
+    const MeshLimits most{most_triangles};
+    const MeshEstimate estimate = estimateMesh(cad.shape, meshing, most, report);
+    CadMeshing fitting = meshing;
+    const bool unasked = meshing.deflection_m == CadMeshing{}.deflection_m;
+    if (unasked) fitting.deflection_m = estimate.finestThatFits_m(meshing.deflection_m, {most_triangles, kUnasked_s});
+    requireFits(estimate, fitting, most);
+    Model model = meshWithin(cad, fitting, estimate, most, report);
+    if (fitting.deflection_m != meshing.deflection_m) model.warnings.push_back(coarserWarning(estimate, fitting));
+    return model;
   } catch (const Standard_Failure& failure) {
     throw Error(fmt::format("cannot be meshed: {}", failure.DynamicType()->Name()));
   }

@@ -241,6 +241,25 @@ TEST_F(CadFile, WhatIsBrokenGivesOneLine) {
   }
 }
 
+// At many places: OpenCASCADE goes on for ever where a number of a BREP file is missing, and takes what is there of IGES.
+TEST_F(CadFile, CutFilesAreRefused) {
+  const TopoDS_Shape shape = test::bored(5, 10);
+  const std::string brep = tempFile("whole.brep"), iges = tempFile("whole.igs");
+  BRepTools::Write(shape, brep.c_str());
+  IGESControl_Writer writer;
+  writer.AddShape(shape);
+  writer.Write(iges.c_str());
+  for (const std::string& whole : {brep, iges}) {
+    ASSERT_EQ(loadRefusal(whole), "");
+    const std::string content = contentOf(whole), ending = whole.substr(whole.find_last_of('.'));
+    for (std::size_t part = 1; part < 20; ++part) {
+      const std::string line = loadRefusal(fileWith("cut" + ending, content.substr(0, content.size() * part / 20)));
+      EXPECT_NE(line, "") << part << ending;
+      EXPECT_EQ(line.find("too long"), std::string::npos) << part << ending;
+    }
+  }
+}
+
 TEST_F(CadFile, ASecondReadingGivesTheSameAndABrokenEntryIsMadeAnew) {
   const std::string path = stepFile(test::rounded(2), "part.step");
   LoadOptions options;
