@@ -23,15 +23,16 @@ inline void addExtension(X509* certificate, int nid, const char* value) {
   X509_EXTENSION_free(extension);
 }
 
-/// Files NAME.crt and NAME.key; `names` as in subjectAltName.
-inline TlsFiles makeCertificate(const std::string& name, const char* names = "IP:127.0.0.1,DNS:localhost") {
+/// Files NAME.crt and NAME.key; `names` as in subjectAltName. Valid for a day before and after `days` from now.
+inline TlsFiles makeCertificate(const std::string& name, const char* names = "IP:127.0.0.1,DNS:localhost",
+                                long days = 0) {
   const std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)> key(EVP_EC_gen("P-256"), EVP_PKEY_free);
   const std::unique_ptr<X509, decltype(&X509_free)> certificate(X509_new(), X509_free);
   constexpr long kDay_s = 86'400;
   X509_set_version(certificate.get(), 2);
   ASN1_INTEGER_set(X509_get_serialNumber(certificate.get()), 1);
-  X509_gmtime_adj(X509_getm_notBefore(certificate.get()), -kDay_s);
-  X509_gmtime_adj(X509_getm_notAfter(certificate.get()), kDay_s);
+  X509_gmtime_adj(X509_getm_notBefore(certificate.get()), (days - 1) * kDay_s);
+  X509_gmtime_adj(X509_getm_notAfter(certificate.get()), (days + 1) * kDay_s);
   X509_set_pubkey(certificate.get(), key.get());
   X509_NAME* subject = X509_get_subject_name(certificate.get());
   X509_NAME_add_entry_by_txt(subject, "CN", MBSTRING_ASC, reinterpret_cast<const unsigned char*>("hl test"), -1, -1, 0);

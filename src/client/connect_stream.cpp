@@ -46,7 +46,8 @@ std::string tlsFailure(const ServerAddress& address, SSL* handle, const boost::s
            "); " + adviceFor(verdict);
   }
   if (error == boost::beast::error::timeout) return address.text() + " does not answer to TLS; does it want hl:// ?";
-  return address.text() + " speaks no TLS 1.3 (" + error.message() + "); does it want hl:// ?";
+  return address.text() + " speaks no TLS 1.3 (" + error.message() +
+         "); does it want hl:// ?, or has it no room for another connection?";
 }
 
 // The certificate must be this host's; a name is also sent to the server, an address is not (RFC 6066, 3).

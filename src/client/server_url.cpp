@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "base/error.h"
@@ -65,7 +66,9 @@ const auto& options() {
 }
 
 void parseOptions(ServerUrl& url, const std::vector<UrlOption>& given) {
+  std::set<std::string> seen;
   for (const UrlOption& option : given) {
+    if (!seen.insert(option.name).second) fail("the option " + option.name + " is there twice");
     const auto found = options().find(option.name);
     if (found == options().end())
       fail("'" + option.name +
@@ -96,7 +99,10 @@ ServerUrl parseServerUrl(const std::string& text) {
   if (const char* token = std::getenv("HL_TOKEN")) url.token = token;
   if (parts.host) url.host = *parts.host;
   if (parts.port) url.port = *parts.port;
-  if (!parts.path.empty() && !(parts.host && parts.path == "/"))
+  const bool far = url.scheme == "hl" || url.scheme == "hls";
+  if (far && parts.host && !parts.path.empty() && parts.path != "/")
+    fail("an address of a server has no path: leave '" + parts.path + "' out");
+  if ((!parts.host || url.scheme == "inproc") && !parts.path.empty())
     fail("after '" + url.scheme + ":' comes '//' and a host, or '?' and options");
   parseOptions(url, parts.options);
   if (!url.sim.empty() && (url.scheme == "hl" || url.scheme == "hls"))

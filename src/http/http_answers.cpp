@@ -100,8 +100,7 @@ HttpResponse HttpAnswers::answerGet(const HttpRequest& request, const ServerCoun
   const std::string token = queryValue(target, "token");
   if (path == "/" && !token.empty()) return login(request, token);
   if (!isTrusted(request)) {
-    return refuse(request, http::status::unauthorized,
-                  "this server asks for its token: open its address once with ?token=TOKEN at the end");
+    return refuse(request, http::status::unauthorized, kAsksForToken);
   }
   if (path == "/metrics")
     return respond(request, http::status::ok, "text/plain; version=0.0.4", sources_.metrics(counts));

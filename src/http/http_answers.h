@@ -17,6 +17,12 @@ namespace hl {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
+/// Why a request without the right token is refused, and what to do.
+inline constexpr const char* kAsksForToken =
+    "this server asks for its token, and this one is missing or wrong: a browser opens the page once with "
+    "/?token=TOKEN, "
+    "a program sends 'Authorization: Bearer TOKEN'";
+
 using HttpFileResponse = boost::beast::http::response<boost::beast::http::file_body>;
 
 /// Any thread; the sources are asked by the one that answers.

@@ -55,7 +55,10 @@ ListenerSettings listenerSettings(const HttpServerSettings& settings) {
                 ", beyond this machine, needs TLS and a token: give a certificate, its key and a token file, or listen "
                 "on 127.0.0.1");
   }
-  if (!settings.tls.empty()) out.tls = makeServerTls(settings.tls);
+  if (settings.tls.empty()) return out;
+  out.tls = makeServerTls(settings.tls);
+  if (const std::string warning = certificateWarning(*out.tls); !warning.empty())
+    logEvent(LogLevel::kWarning, "certificate_is_refused", {{"file", settings.tls.certificate}, {"reason", warning}});
   return out;
 }
 
@@ -113,7 +116,11 @@ class HttpServer::Impl {
   void setToken(const std::string& token) { access_.setToken(token); }
 
   void start() {
-    listener_.start([this](ConnectionPointer connection) { return serve(std::move(connection)); });
+    listener_.start({[this](ConnectionPointer connection) { return serve(std::move(connection)); },
+                     [this](const std::string& peer) { logCrowdedOut(peer); },
+                     [this](const std::string& peer, const std::string& why) {
+                       logRefused(peer, RefusedBecause::kHandshake, "no TLS 1.3 handshake: " + why);
+                     }});
     pages_.start();
     thread_ = startThread("network", [this] { run(); });
   }
@@ -151,12 +158,14 @@ class HttpServer::Impl {
   // One HTTP connection; it may become a WebSocket.
   asio::awaitable<void> serve(ConnectionPointer connection) {
     beast::flat_buffer buffer;
-    while (true) {
+    for (bool first = true;; first = false) {
       HeadParser head;
       head.header_limit(kMaxRequest_bytes);
       head.body_limit(boost::none);  // files have a limit of their own
       connection->stream.tcp().expires_after(kRequestTimeout);
       auto [no_head, head_bytes] = co_await http::async_read_header(connection->stream, buffer, head, kAwait);
+      if (no_head == beast::error::timeout && first)
+        co_return logRefused(connection->peer, RefusedBecause::kSilent, "it has asked for nothing in time");
       if (no_head) co_return co_await refuse(connection, refusalOf(no_head));
       if (isUpload(viewOf(head.get().target()))) {
         const bool goes_on = co_await uploads_.serve(connection, buffer, head);
@@ -188,8 +197,7 @@ class HttpServer::Impl {
   // What cannot be a request is answered once, and the connection ends: where the next one begins is not known.
   asio::awaitable<void> refuse(ConnectionPointer connection, std::optional<Refusal> refusal) {
     if (!refusal) co_return;
-    traffic_.refuse(refusal->because);
-    logEvent(LogLevel::kWarning, "refused", {{"peer", connection->peer}, {"reason", refusal->text}});
+    logRefused(connection->peer, refusal->because, refusal->text);
     HttpRequest none;
     none.version(11);
     none.keep_alive(false);
@@ -249,6 +257,23 @@ class HttpServer::Impl {
     co_return response;
   }
 
+  void logRefused(const std::string& peer, RefusedBecause because, const std::string& text) {
+    traffic_.refuse(because);
+    logEvent(LogLevel::kWarning, "refused", {{"peer", peer}, {"reason", text}});
+  }
+
+  // Counted by the listener. Once in a while: those who are crowded out try again.
+  void logCrowdedOut(const std::string& peer) {
+    constexpr std::chrono::seconds kEvery(10);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - crowded_out_logged_ < kEvery) return;
+    crowded_out_logged_ = now;
+    logEvent(LogLevel::kWarning, "refused",
+             {{"peer", peer},
+              {"reason",
+               "there are " + std::to_string(listener_.connections()) + " connections already, as many as may be"}});
+  }
+
   void logDenied(const std::string& peer, const HttpRequest& request, const HttpResponse& response) {
     traffic_.refuse(RefusedBecause::kAccess);
     const std::string host(request[http::field::host]);
@@ -278,6 +303,7 @@ class HttpServer::Impl {
   HttpAnswers answers_;
   UploadReceiver uploads_;
   bool stopping_ = false;  // in the server's thread
+  std::chrono::steady_clock::time_point crowded_out_logged_{};
   std::thread thread_;
 };
 

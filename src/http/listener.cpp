@@ -81,8 +81,8 @@ void Listener::listen(const ListenerSettings& settings) {
   }
 }
 
-void Listener::start(ServeConnection serve) {
-  serve_ = std::move(serve);
+void Listener::start(ListenerCallbacks callbacks) {
+  callbacks_ = std::move(callbacks);
   keepAccepting();
 }
 
@@ -109,6 +109,7 @@ void Listener::take(tcp::socket socket) {
   const tcp::endpoint peer = socket.remote_endpoint(gone);
   if (gone || connections_.size() >= settings_.max_connections) {
     ++refused_;
+    if (!gone) callbacks_.crowded_out(nameOf(peer));
     return;  // and the socket closes
   }
   keepFromChildren(socket.native_handle());
@@ -121,7 +122,7 @@ void Listener::take(tcp::socket socket) {
 
 asio::awaitable<void> Listener::admit(std::unique_ptr<Slot> slot) {
   const bool welcome = co_await shakeHands(*slot->connection());
-  if (welcome) co_await serve_(slot->connection());
+  if (welcome) co_await callbacks_.serve(slot->connection());
 }
 
 asio::awaitable<bool> Listener::shakeHands(Connection& connection) {
@@ -129,6 +130,7 @@ asio::awaitable<bool> Listener::shakeHands(Connection& connection) {
   if (tls == nullptr) co_return true;
   connection.stream.tcp().expires_after(settings_.handshake);
   auto [error] = co_await tls->async_handshake(asio::ssl::stream_base::server, kAwait);
+  if (error && !stopping_) callbacks_.no_handshake(connection.peer, error.message());
   co_return !error;
 }
 

@@ -25,8 +25,14 @@ struct ListenerSettings {
   std::chrono::milliseconds handshake{0};
 };
 
-/// Serves one accepted connection; the connection is closed when it returns.
-using ServeConnection = std::function<boost::asio::awaitable<void>(ConnectionPointer)>;
+struct ListenerCallbacks {
+  /// Serves one accepted connection; the connection is closed when it returns.
+  std::function<boost::asio::awaitable<void>(ConnectionPointer)> serve;
+  /// A connection beyond max_connections has been closed.
+  std::function<void(const std::string& peer)> crowded_out;
+  /// A connection has been closed without a TLS handshake, for this reason.
+  std::function<void(const std::string& peer, const std::string& why)> no_handshake;
+};
 
 /// An address such as 127.0.0.1, ::1, 0.0.0.0 or localhost. Throws hl::Error for anything else.
 boost::asio::ip::address parseListenAddress(const std::string& text);
@@ -38,7 +44,7 @@ class Listener {
   Listener(boost::asio::io_context& context, const ListenerSettings& settings);
   std::uint16_t port() const { return port_; }
 
-  void start(ServeConnection serve);
+  void start(ListenerCallbacks callbacks);
   /// Accepts again where that has ended for want of memory.
   void keepAccepting();
   /// No new connections; those with a farewell get it and `grace` to leave, the others are closed.
@@ -62,7 +68,7 @@ class Listener {
   boost::asio::ip::tcp::acceptor acceptor_;
   boost::asio::steady_timer pause_;
   std::uint16_t port_ = 0;
-  ServeConnection serve_;
+  ListenerCallbacks callbacks_;
   std::set<ConnectionPointer> connections_;
   std::size_t refused_ = 0;
   bool accepting_ = false, stopping_ = false;

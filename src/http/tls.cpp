@@ -25,4 +25,14 @@ std::shared_ptr<ssl::context> makeServerTls(const TlsFiles& files) {
   return context;
 }
 
+std::string certificateWarning(const ssl::context& context) {
+  const X509* const certificate = SSL_CTX_get0_certificate(const_cast<ssl::context&>(context).native_handle());
+  if (certificate == nullptr) return {};
+  if (X509_cmp_current_time(X509_get0_notAfter(certificate)) < 0)
+    return "it has expired: no client takes it; make a new one";
+  if (X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0)
+    return "it is not valid yet: no client takes it; see this machine's clock, or make a new one";
+  return {};
+}
+
 }  // namespace hl

@@ -13,6 +13,9 @@ struct TlsFiles {
   bool empty() const { return certificate.empty() && key.empty(); }
 };
 
+/// What clients will refuse the certificate for today, in one line: it has expired, or is not valid yet; else empty.
+std::string certificateWarning(const boost::asio::ssl::context& context);
+
 /// Throws hl::Error that names the file that is missing, cannot be read, or does not fit the other.
 std::shared_ptr<boost::asio::ssl::context> makeServerTls(const TlsFiles& files);
 

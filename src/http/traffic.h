@@ -14,13 +14,14 @@ enum class RefusedBecause : std::uint8_t {
   kMalformed,  ///< does not parse, or not what comes next
   kTooLarge,
   kTooFast,
-  kSilent,  ///< no Open in time, reads nothing, or answers no ping
-  kFull,    ///< no room for another page or session
-  kFailed,  ///< our own fault
+  kSilent,     ///< no request or Open in time, reads nothing, or answers no ping
+  kFull,       ///< no room for another page or session
+  kFailed,     ///< our own fault
+  kHandshake,  ///< no TLS handshake, or none in time
 };
-inline constexpr std::size_t kRefusedReasons = 7;
-inline constexpr std::array<const char*, kRefusedReasons> kRefusedNames{"access", "malformed", "too_large", "too_fast",
-                                                                        "silent", "full",      "failed"};
+inline constexpr std::size_t kRefusedReasons = 8;
+inline constexpr std::array<const char*, kRefusedReasons> kRefusedNames{
+    "access", "malformed", "too_large", "too_fast", "silent", "full", "failed", "handshake"};
 
 /// What became of a file that a page sent.
 enum class UploadResult : std::uint8_t {

@@ -41,9 +41,7 @@ std::optional<UploadRefusal> refusalOf(const HttpRequest& head, const BodyLength
   };
   if (!answers.mayConnect(head))
     return UploadRefusal{http::status::forbidden, UploadResult::kDenied, "only this server's own page may send files"};
-  if (!answers.isTrusted(head))
-    return UploadRefusal{http::status::unauthorized, UploadResult::kDenied,
-                         "this server asks for its token: open its address once with ?token=TOKEN at the end"};
+  if (!answers.isTrusted(head)) return UploadRefusal{http::status::unauthorized, UploadResult::kDenied, kAsksForToken};
   if (limit_bytes == 0)
     return UploadRefusal{http::status::not_found, UploadResult::kNotTaken,
                          "this server takes no files: start it with hl touch --upload on"};

@@ -70,9 +70,7 @@ class TouchMonitor {
 
   std::string fault() {
     observe();
-    for (MonitoredDevice& device : devices_) {
-      if (const std::string why = faultOf(device); !why.empty()) return headOfDevice(device) + why;
-    }
+    if (const std::string why = faultOfDevices(); !why.empty()) return why;
     for (const ThreadFailures& thread : threadFailures()) {
       if (thread.now) return std::string("the thread '") + thread.thread + "' fails at its work: see the log";
     }
@@ -102,6 +100,18 @@ class TouchMonitor {
     LoopSummary second;
     LoopTotals totals;
   };
+
+  // Of devices that stop together, that of the one for whose sake they do.
+  std::string faultOfDevices() {
+    std::string of_others;
+    for (MonitoredDevice& device : devices_) {
+      const std::string why = faultOf(device);
+      if (why.empty()) continue;
+      if (device.servo.fault != FaultReason::kOtherDevice) return headOfDevice(device) + why;
+      if (of_others.empty()) of_others = headOfDevice(device) + why;
+    }
+    return of_others;
+  }
 
   static std::string faultOf(Device& device) {
     const std::int64_t now_ns = monotonicNow_ns();

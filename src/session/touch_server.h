@@ -42,7 +42,8 @@ class TouchServer final : public SessionHost {
   std::unique_ptr<PlacedClient> placeClient();
 
   /// Fits hands to these bounds, as to a scene of the server's own; simulated ones are above them then, until
-  /// freeHands(). Waits for them `most_s` at most.
+  /// freeHands(). Those that have been fitted, or whose workspace a client has set, stay as they are. Waits for them
+  /// `most_s` at most.
   void fitHands(const Box& bounds, double most_s) { world_.fitHands(bounds, most_s); }
   void freeHands() { world_.freeHands(); }
 

@@ -124,8 +124,11 @@ bool TouchWorld::showBase(const std::shared_ptr<const Snapshot>& base) {
 }
 
 void TouchWorld::fitHands(const Box& bounds, double most_s) {
-  moveHandsAside(bounds, most_s);
-  for (const auto& device : devices_) device->fitTo(bounds);
+  for (const auto& device : devices_) {
+    if (device->isFitted()) continue;
+    device->moveHandAside(bounds, most_s);
+    device->fitTo(bounds);
+  }
 }
 
 void TouchWorld::freeHands() {

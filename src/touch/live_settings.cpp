@@ -86,6 +86,11 @@ void LiveSettings::refit(const Box& bounds) {
   restartWith(workspace, radius_D_ * workspace.world_per_device);
 }
 
+bool LiveSettings::isFitted() const {
+  const std::lock_guard lock(mutex_);
+  return fitted_;
+}
+
 MaterialOverride LiveSettings::surfaces() const {
   const std::lock_guard lock(mutex_);
   return commands_.surfaces;

@@ -41,6 +41,8 @@ class LiveSettings {
   MaterialOverride surfaces() const;
   Workspace workspace() const;
   double radius_W() const;
+  /// Whether the workspace has been set, or fitted to a scene.
+  bool isFitted() const;
   /// How high a scene of these bounds would reach at the hand, m above its origin, were it fitted.
   double topOfFitted_D(const Box& bounds) const;
   double side_D() const { return side_D_; }  ///< m, of a model that is fitted

@@ -101,6 +101,7 @@ class TouchSession {
   void freeHand() { hand_.free(); }
   /// What is to come is fitted to the hand; see publishAnew().
   void fitTo(const Box& bounds) { live_.refit(bounds); }
+  bool isFitted() const { return live_.isFitted(); }  ///< or its workspace has been set
   /// Whoever ticks has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or nobody does: the loops
   /// do not run, or the servo stands still, without force, and will find the newest scene when it goes on.
   bool ready(std::int64_t since_ns) const;

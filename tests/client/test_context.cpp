@@ -154,6 +154,9 @@ TEST_F(CallsTest, FailedConnectionsSayWhy) {
   };
   EXPECT_NE(failure("gopher://host").find("no way to a server at 'gopher:'"), std::string::npos);
   EXPECT_NE(failure("fake:?colour=red").find("'colour' is not an option"), std::string::npos);
+  EXPECT_NE(failure("fake:?device=0&device=1").find("the option device is there twice"), std::string::npos);
+  EXPECT_NE(failure("hl://localhost:1997/hl").find("leave '/hl' out"), std::string::npos);
+  EXPECT_NE(failure("ws://localhost:1997/hl").find("no way to a server at 'ws:'"), std::string::npos);
   EXPECT_NE(failure(nullptr).find("null"), std::string::npos);
   server->answers_open = false;
   EXPECT_EQ(failure("fake:?timeout=0"), "the server has not answered in time");

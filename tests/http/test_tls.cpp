@@ -199,6 +199,15 @@ TEST(Tls, AnHlClientOpensWithTheTokenOrTheCookie) {
   host.waitForAlive(0);
 }
 
+TEST(Tls, ACertificateThatClientsRefuseTodayIsAWarning) {
+  const auto warning = [](long days) {
+    return certificateWarning(*makeServerTls(makeCertificate("dated", "IP:127.0.0.1", days)));
+  };
+  EXPECT_EQ(warning(0), "");
+  EXPECT_NE(warning(-10).find("expired"), std::string::npos);
+  EXPECT_NE(warning(10).find("not valid yet"), std::string::npos);
+}
+
 TEST(Tls, ASilentHandshakeHoldsNobodyUp) {
   const TlsFiles tls = makeCertificate("server");
   HttpServerSettings settings = everywhere(tls);
@@ -215,6 +224,8 @@ TEST(Tls, ASilentHandshakeHoldsNobodyUp) {
   beast::error_code error;
   boost::asio::read(silent, boost::asio::buffer(&byte, 1), error);
   EXPECT_TRUE(error);
+  const auto metrics = client.get("/metrics", {{http::field::authorization, std::string("Bearer ") + kToken}}).body();
+  EXPECT_NE(metrics.find("hl_refused_total{reason=\"handshake\"} 1\n"), std::string::npos) << metrics;
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ INSTANTIATE_TEST_SUITE_P(OfScenes, ItemContent,
                          testing::Values("workshop", "terrain:2000", "blocks", "clouds", "depth", "fields", "heights",
                                          "hollow", "implicit", "parts", "patches", "snaps", "textured_heights",
                                          "textured_tiles", "volume"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& one) {
+                           std::string name = one.param;
                            std::replace(name.begin(), name.end(), ':', '_');
                            return name;
                          });

@@ -60,6 +60,25 @@ TEST_F(SharedServers, ABodyThatHasComeToRestIsAtTheSamePlaceToTheBit) {
   });
 }
 
+// The first objects of others are brought within reach of hands that have no workspace yet, and of no others.
+TEST_F(SharedServers, AHandKeepsTheWorkspaceThatItHas) {
+  TouchServerSettings settings = settingsOf();
+  settings.touch.world_per_device.reset();
+  const auto a = add(1, "anna", floorAndBlock());
+  const auto with = [&](ServerId id, const std::string& name) {
+    return std::make_unique<SharedServer>(std::make_unique<MemoryHub::Link>(hub, id), id, name, nothing(), settings);
+  };
+  const auto set = with(2, "bert");
+  const Workspace own{Vec3(0.1, 0.2, 0.3), 2};
+  set->touch.device().setWorkspace(own);
+  const auto unset = with(3, "carl");
+  waitForBoth(*set);
+  waitForBoth(*unset);
+  waitFor([&] { return unset->touch.device().workspace().world_per_device > 3; });  // the floor has 2 m
+  EXPECT_EQ(set->touch.device().workspace().origin_W, own.origin_W);
+  EXPECT_EQ(set->touch.device().workspace().world_per_device, own.world_per_device);
+}
+
 TEST_F(SharedServers, WhatAHandPressesOnABodyOfAnotherMovesIt) {
   const auto a = add(1, "anna", floorAndBlock(kNear)), b = add(2, "bert", nothing());
   waitForBoth(*b);
