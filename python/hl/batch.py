@@ -6,6 +6,7 @@ closest.
 """
 
 import os
+import warnings
 from dataclasses import dataclass, fields
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
 
@@ -121,6 +122,7 @@ class Scene:
         points: Any = None,
         surfels: Any = False,
         below: bool = False,
+        grid: Optional[str] = None,
     ) -> None:
         of_file = isinstance(source, (str, bytes, os.PathLike))
         if of_file and isinstance(triangles, (int, float)):
@@ -134,7 +136,7 @@ class Scene:
             "an implicit surface": implicit,
         }
         options = dict(triangles=triangles, normals=normals, size=size, iso=iso, spacing=spacing)
-        options.update(vertical_scale=vertical_scale, missing=missing, surfels=surfels, below=below)
+        options.update(vertical_scale=vertical_scale, missing=missing, surfels=surfels, below=below, grid=grid)
         kind = _kind_of(made_of, options)
         if kind == "vertices" and source is not None and vertices is not None:
             raise InvalidValueError("vertices are given twice")
@@ -153,6 +155,8 @@ class Scene:
             self._scene = _heights_of(heights, spacing, 1.0 if vertical_scale is None else vertical_scale, missing)
         else:
             self._scene = _made_of(made_of["vertices"], triangles, normals)
+        for line in self._scene.warnings:
+            warnings.warn(line, stacklevel=2)
 
     @property
     def primitives(self) -> int:
@@ -163,6 +167,11 @@ class Scene:
     def bounds(self) -> Floats:
         """The box around it, (2, 3), m: the lowest corner and the highest."""
         return self._scene.bounds
+
+    @property
+    def warnings(self) -> List[str]:
+        """What was left out or changed when it was read or made, a line each. Python warns of each once, too."""
+        return self._scene.warnings
 
     def __copy__(self) -> "Scene":
         return self
@@ -310,7 +319,9 @@ class Closest(NamedTuple):
 
 def closest(scene: Scene, points: npt.ArrayLike, threads: int = 0) -> Closest:
     """Of each of the points, (n, 3) in m, the nearest point of the scene, at any distance."""
-    return Closest(*_hl.closest(_native_scene(scene), arguments.floats(points, "points"), arguments.threads(threads)))
+    rows = arguments.floats(points, "points")
+    rows = rows.reshape(0, 3) if rows.shape == (0,) else rows  # of a list without points
+    return Closest(*_hl.closest(_native_scene(scene), rows, arguments.threads(threads)))
 
 
 def _scene_of(source: str, size: float) -> Scene:
@@ -363,6 +374,7 @@ _OPTIONS = {
     "missing": ("heights", "a volume"),
     "surfels": ("points",),
     "below": ("a volume",),
+    "grid": (),
 }
 
 
@@ -371,6 +383,7 @@ _IN_SCENE_FILES = {
     "iso": '{"objects": [{"volume": {"file": "head.nii.gz", "iso": 300}}]}',
     "below": '{"objects": [{"volume": {"file": "distances.nrrd", "iso": 0, "below": true}}]}',
     "surfels": '{"objects": [{"points": {"file": "scan.ply", "surfels": true}}]}',
+    "grid": '{"objects": [{"volume": {"file": "smoke.vdb", "grid": "density"}}]}',
 }
 
 
@@ -388,6 +401,8 @@ def _kind_of(made_of: Dict[str, Any], options: Dict[str, Any]) -> str:
         said = value is not None if name in ("missing", "iso") else _is_said(value)
         if said and kinds[0] == "a file" and name in _IN_SCENE_FILES:
             raise InvalidValueError(f"{name} of a file belongs into a scene file: {_IN_SCENE_FILES[name]}")
+        if said and not needed:
+            raise InvalidValueError(f"{name} belongs to a file with several grids, and this scene is made of {kinds[0]}")
         if said and kinds[0] not in needed:
             raise InvalidValueError(f"{name} belongs to {' and '.join(needed)}, and this scene is made of {kinds[0]}")
     return kinds[0]

@@ -123,6 +123,13 @@ Doubles boundsOf(const Scene& scene) {
   return bounds;
 }
 
+std::vector<std::string> warningsOf(const Scene& scene) {
+  std::vector<std::string> warnings;
+  while (const char* const warning = hlBatchSceneWarning(scene.handle.get(), warnings.size()))
+    warnings.emplace_back(warning);
+  return warnings;
+}
+
 HLbatchSettings makeSettings(double radius, double spring, double period, std::optional<bool> smooth) {
   HLbatchSettings settings;
   hlBatchSettings(&settings);
@@ -217,7 +224,8 @@ void bindBatch(py::module_& module) {
       .def(py::init(&makePoints), py::arg("points"), py::arg("normals"), py::arg("reach"))
       .def_property_readonly("primitives",
                              [](const Scene& scene) { return hlBatchScenePrimitives(scene.handle.get()); })
-      .def_property_readonly("bounds", &boundsOf);
+      .def_property_readonly("bounds", &boundsOf)
+      .def_property_readonly("warnings", &warningsOf);
   py::class_<HLbatchSettings>(module, "BatchSettings")
       .def(py::init(&makeSettings), py::arg("radius"), py::arg("spring"), py::arg("period"), py::arg("smooth"))
       .def("set_surface", [](HLbatchSettings& settings, HLenum quantity, double value) {

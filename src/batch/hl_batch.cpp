@@ -239,7 +239,7 @@ HLbatchScene* hlBatchMakeScene(const HLdouble* positions, const HLdouble* normal
     require(positions != nullptr && indices != nullptr, "positions or indices is NULL");
     requireCount(vertices, "there are more vertices than indices can name");
     requireCount(triangles, "there are too many triangles");
-    requireFinite(positions, 3 * vertices, "positions must be finite");
+    requireFinite(positions, 3 * vertices, "vertices must be finite");
     if (normals != nullptr) requireFinite(normals, 3 * vertices, "normals must be finite");
     require(std::all_of(indices, indices + 3 * triangles, [&](HLuint i) { return i < vertices; }),
             "an index names no vertex");
@@ -328,6 +328,11 @@ HLbatchScene* hlBatchMakeImplicit(const char* json) {
 void hlBatchDeleteScene(HLbatchScene* scene) { delete scene; }
 
 size_t hlBatchScenePrimitives(const HLbatchScene* scene) { return scene != nullptr ? scene->snapshot->primitives : 0; }
+
+const char* hlBatchSceneWarning(const HLbatchScene* scene, size_t number) {
+  if (scene == nullptr || number >= scene->snapshot->warnings.size()) return nullptr;
+  return scene->snapshot->warnings[number].c_str();
+}
 
 void hlBatchSceneBounds(const HLbatchScene* scene, HLdouble* low, HLdouble* high) {
   if (scene == nullptr) return;

@@ -262,12 +262,8 @@ class HttpServer::Impl {
     logEvent(LogLevel::kWarning, "refused", {{"peer", peer}, {"reason", text}});
   }
 
-  // Counted by the listener. Once in a while: those who are crowded out try again.
+  // Counted by the listener.
   void logCrowdedOut(const std::string& peer) {
-    constexpr std::chrono::seconds kEvery(10);
-    const auto now = std::chrono::steady_clock::now();
-    if (now - crowded_out_logged_ < kEvery) return;
-    crowded_out_logged_ = now;
     logEvent(LogLevel::kWarning, "refused",
              {{"peer", peer},
               {"reason",
@@ -303,7 +299,6 @@ class HttpServer::Impl {
   HttpAnswers answers_;
   UploadReceiver uploads_;
   bool stopping_ = false;  // in the server's thread
-  std::chrono::steady_clock::time_point crowded_out_logged_{};
   std::thread thread_;
 };
 

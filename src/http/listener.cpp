@@ -109,7 +109,7 @@ void Listener::take(tcp::socket socket) {
   const tcp::endpoint peer = socket.remote_endpoint(gone);
   if (gone || connections_.size() >= settings_.max_connections) {
     ++refused_;
-    if (!gone) callbacks_.crowded_out(nameOf(peer));
+    if (!gone) sayCrowdedOut(peer);
     return;  // and the socket closes
   }
   keepFromChildren(socket.native_handle());
@@ -118,6 +118,14 @@ void Listener::take(tcp::socket socket) {
   auto slot = std::make_unique<Slot>(
       *this, std::make_shared<Connection>(Stream::Tcp(std::move(socket)), settings_.tls.get(), nameOf(peer)));
   asio::co_spawn(context_, admit(std::move(slot)), reportEnd);
+}
+
+void Listener::sayCrowdedOut(const tcp::endpoint& peer) {
+  constexpr std::chrono::seconds kEvery(10);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - crowded_said_ < kEvery) return;
+  crowded_said_ = now;
+  callbacks_.crowded_out(nameOf(peer));
 }
 
 asio::awaitable<void> Listener::admit(std::unique_ptr<Slot> slot) {

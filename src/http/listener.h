@@ -28,7 +28,7 @@ struct ListenerSettings {
 struct ListenerCallbacks {
   /// Serves one accepted connection; the connection is closed when it returns.
   std::function<boost::asio::awaitable<void>(ConnectionPointer)> serve;
-  /// A connection beyond max_connections has been closed.
+  /// A connection beyond max_connections has been closed. Called once in ten seconds: who is crowded out tries again.
   std::function<void(const std::string& peer)> crowded_out;
   /// A connection has been closed without a TLS handshake, for this reason.
   std::function<void(const std::string& peer, const std::string& why)> no_handshake;
@@ -59,6 +59,7 @@ class Listener {
   void listen(const ListenerSettings& settings);
   boost::asio::awaitable<void> accept();
   void take(boost::asio::ip::tcp::socket socket);
+  void sayCrowdedOut(const boost::asio::ip::tcp::endpoint& peer);
   boost::asio::awaitable<void> admit(std::unique_ptr<Slot> slot);
   boost::asio::awaitable<bool> shakeHands(Connection& connection);
   boost::asio::awaitable<void> closeLater(std::chrono::milliseconds grace);
@@ -71,6 +72,7 @@ class Listener {
   ListenerCallbacks callbacks_;
   std::set<ConnectionPointer> connections_;
   std::size_t refused_ = 0;
+  std::chrono::steady_clock::time_point crowded_said_{};
   bool accepting_ = false, stopping_ = false;
 };
 

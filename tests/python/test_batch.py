@@ -117,6 +117,28 @@ class Heights(unittest.TestCase):
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=np.full((3, 3), np.nan)))
 
 
+class Warnings(unittest.TestCase):
+    def test_what_is_left_out_is_said(self):
+        corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+        with self.assertWarnsRegex(UserWarning, "skipped 1 triangles"):
+            scene = hl.Scene(corners, [[0, 1, 2], [0, 0, 1]])
+        self.assertEqual(scene.primitives, 1)
+        self.assertEqual(len(scene.warnings), 1)
+        self.assertEqual(hl.Scene(corners, [[0, 1, 2]]).warnings, [])
+
+    def test_which_of_several_grids_is_said_by_a_scene_file(self):
+        with self.assertRaisesRegex(hl.InvalidValueError, "scene file.*grid"):
+            hl.Scene("two.vdb", grid="density")
+        with self.assertRaisesRegex(hl.InvalidValueError, "several grids"):
+            hl.Scene(heights=np.zeros((3, 3)), grid="density")
+
+
+class Nothing(unittest.TestCase):
+    def test_no_points_have_no_closest_points(self):
+        for none in ([], np.zeros((0, 3))):
+            self.assertEqual(hl.closest(hl.Scene("sphere:100"), none).distance.shape, (0,))
+
+
 class CadFiles(unittest.TestCase):
     @unittest.skipUnless((Path(HL).parent / "hl-cad").exists(), "hl-cad is not built")
     def test_a_step_file_is_a_scene_in_metres(self):

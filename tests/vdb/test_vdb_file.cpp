@@ -175,7 +175,7 @@ TEST_F(VdbFile, OfSeveralGridsOneIsMeantOrSaid) {
             "has no grid 'smoke'; it has 'v' of vec3s, 'density' of float, 'surface' of float");
   EXPECT_EQ(refusalOf(one, "v"), "has vec3s in its grid 'v': one of float can be touched");
   const std::string two = vdbFile("two.vdb", {named("a", ball(0.01, 1e-3)), named("b", ball(0.02, 1e-3))});
-  EXPECT_EQ(refusalOf(two), "has several grids: say --grid NAME; it has 'a' of float, 'b' of float");
+  EXPECT_EQ(refusalOf(two), "has several grids: say which (--grid NAME, or \"grid\" in a scene file); it has 'a' of float, 'b' of float");
   EXPECT_NEAR(boundsOf(load(two, "b")).size().x(), 0.04, 5e-3);
   EXPECT_EQ(refusalOf(vdbFile("v.vdb", {motion})), "has no grid of float, which could be touched; it has 'v' of vec3s");
   EXPECT_EQ(refusalOf(vdbFile("none.vdb", {})), "has no grid in it");
