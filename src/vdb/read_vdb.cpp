@@ -71,7 +71,8 @@ void checkFilling(const FloatGrid& grid, const std::array<std::uint32_t, 3>& sid
 // What a walk over the voxels of a level set finds.
 struct LevelSetLook {
   float least = std::numeric_limits<float>::infinity(), most = -least;
-  std::size_t narrow = 0;  ///< voxels at the surface with another surface within two voxels
+  std::size_t narrow = 0;   ///< voxels at the surface with another surface within two voxels
+  std::size_t lacking = 0;  ///< voxels whose value is no number
 };
 
 // The gradient of distances has the length 1. It is shorter where those of two surfaces meet: by cos a on the bisector
@@ -86,6 +87,7 @@ LevelSetLook lookAt(const FloatGrid& grid, const Mat3& axes) {
   const auto values = grid.getConstAccessor();
   for (auto at = grid.cbeginValueOn(); at; ++at) {
     const float value = *at;
+    look.lacking += std::isnan(value) ? 1 : 0;
     look.least = std::min(look.least, value);
     look.most = std::max(look.most, value);
     if (!wide || !at.isVoxelValue() || std::abs(value) > near) continue;
@@ -107,6 +109,9 @@ void checkLevelSet(const FloatGrid& grid, const Mat3& axes, VolumeSink& sink) {
   if (!(look.least < 0 && look.most > 0))
     throw Error(fmt::format("has no surface in its level set '{}': its distances are from {:.6g} to {:.6g}",
                             shown(grid.getName()), look.least, look.most));
+  if (look.lacking > 0)
+    sink.warn(fmt::format("has {} voxels in its level set that are no numbers: its surface is open around them",
+                          look.lacking));
   if (look.narrow > 0)
     sink.warn(
         fmt::format("has walls or gaps that are thinner than two of its voxels, {:.3g} m, at {} of them: they "

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -151,6 +152,15 @@ TEST_F(VdbFile, AGapThatTheVoxelsCloseIsReported) {
   EXPECT_TRUE(load(vdbFile("cube.vdb", {cube})).model.warnings.empty()) << "edges are no gaps";
 }
 
+TEST_F(VdbFile, VoxelsThatAreNoNumbersAreReported) {
+  const FloatGrid::Ptr grid = ball(0.02, 1e-3);
+  grid->tree().setValueOn(openvdb::Coord(0, 0, 20), std::numeric_limits<float>::quiet_NaN());
+  const SceneModel scene = load(vdbFile("lacking.vdb", {grid}));
+  ASSERT_EQ(scene.model.warnings.size(), 1U);
+  EXPECT_EQ(scene.model.warnings[0],
+            "has 1 voxels in its level set that are no numbers: its surface is open around them");
+}
+
 TEST_F(VdbFile, FogHasItsThresholdAndItsMatterAbove) {
   const FloatGrid::Ptr fog = ball(0.02, 1e-3);
   openvdb::tools::sdfToFogVolume(*fog);
@@ -175,7 +185,9 @@ TEST_F(VdbFile, OfSeveralGridsOneIsMeantOrSaid) {
             "has no grid 'smoke'; it has 'v' of vec3s, 'density' of float, 'surface' of float");
   EXPECT_EQ(refusalOf(one, "v"), "has vec3s in its grid 'v': one of float can be touched");
   const std::string two = vdbFile("two.vdb", {named("a", ball(0.01, 1e-3)), named("b", ball(0.02, 1e-3))});
-  EXPECT_EQ(refusalOf(two), "has several grids: say which (--grid NAME, or \"grid\" in a scene file); it has 'a' of float, 'b' of float");
+  EXPECT_EQ(
+      refusalOf(two),
+      "has several grids: say which (--grid NAME, or \"grid\" in a scene file); it has 'a' of float, 'b' of float");
   EXPECT_NEAR(boundsOf(load(two, "b")).size().x(), 0.04, 5e-3);
   EXPECT_EQ(refusalOf(vdbFile("v.vdb", {motion})), "has no grid of float, which could be touched; it has 'v' of vec3s");
   EXPECT_EQ(refusalOf(vdbFile("none.vdb", {})), "has no grid in it");
