@@ -137,7 +137,7 @@ const HlWebState& WebSession::state() {
   state_.fault = static_cast<double>(out_.fault);
   const ServoTarget& target = step_.target();
   state_.penetration_m = target.valid ? (target.proxy_D - sample_.position).norm() : 0;
-  state_.slipping = loop_.state().touching && loop_.state().rest_s == 0;
+  state_.slipping = loop_.state().touching && loop_.state().sticking.since_slip_s == 0;
   state_.exploring = exploring_;
   state_.firm = firm_;
   state_.buttons = sample_.buttons;

@@ -81,7 +81,7 @@ PartsAlongNormals partsAlong(const FixedVector<Vec3, kMaxActive>& normals, const
 
 ContactParts contactForces_N(const ProxySettings& settings, const ProxyState& state, const TickReport& report,
                              const Vec3& finger) {
-  const Vec3 by_contacts_m = state.position + state.rest_offset_m - finger - report.held_pull_m;
+  const Vec3 by_contacts_m = state.anchor() - finger - report.held_pull_m;
   ContactParts forces = partsOf(report.contacts, by_contacts_m);
   const double spring_N_m = settings.springInWorld_N_m();
   for (std::size_t i = 0; i < report.contacts.size(); ++i) forces[i] = spring_N_m * state.stiffness * forces[i];

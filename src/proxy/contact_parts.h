@@ -15,7 +15,7 @@ namespace hl {
 /// One for each contact of a report. World frame.
 using ContactParts = std::array<Vec3, kMaxActive>;
 
-/// `e`: rest of the spring - finger, m. The parts of it that the contacts hold; their sum is e, unless there is no
+/// `e`: anchor of the spring - finger, m. The parts of it that the contacts hold; their sum is e, unless there is no
 /// contact. RT-safe.
 ContactParts partsOf(const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e);
 

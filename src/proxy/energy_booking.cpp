@@ -30,7 +30,7 @@ EnergyBooking::EnergyBooking(const ProxyState& state, const ProxySettings& setti
       was_touching_(state.touching),
       stiffness_before_(state.stiffness),
       proxy_before_(state.position),
-      presliding_before_J_(state.presliding.energy_J(settings.world_per_device)),
+      presliding_before_J_(state.sticking.springs.energy_J(settings.world_per_device)),
       budget_J_(state.ledger.budget_J(settings.ledger)) {}
 
 double EnergyBooking::energy_J(double stiffness, double distance_squared) const {
@@ -84,10 +84,10 @@ void EnergyBooking::close(ProxyState& state, TickEnd end, const MeanStiffness& s
   const double before = was_touching_ ? stiffness_before_ : stiffness;
   const double per_stiffness_J = energy_J(1, distance_squared);
   if (end != TickEnd::kContact) {
-    state.rest_s = accuracy::kStuck_s;
-    state.presliding = {};
+    state.sticking.since_slip_s = accuracy::kStuck_s;
+    state.sticking.springs = {};
   }
-  const double presliding_J = state.presliding.energy_J(settings_.world_per_device);
+  const double presliding_J = state.sticking.springs.energy_J(settings_.world_per_device);
   const double move_J = moved_J(state.position, before) + presliding_J - presliding_before_J_;
   const double most_J = end == TickEnd::kOnItsWay ? 0 : budget_J_;
   if (move_J + (stiffness - before) * per_stiffness_J > most_J)

@@ -68,7 +68,7 @@ void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySet
     return may_answer && (instance.mesh_motion || instance.key == estimate.key);
   };
   if (std::none_of(report.contacts.begin(), report.contacts.end(), deforms)) return;
-  const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
+  const ContactParts parts = partsOf(report.contacts, state.anchor() - finger);
   const ProxyContact* hardest = nullptr;
   double most_m = 0;
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {

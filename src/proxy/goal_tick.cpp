@@ -31,7 +31,7 @@ TickReport tickToGoal(ProxyState& state, const ProxySettings& settings, const Ve
 
 void setHeldPull(ProxyState& state, const Vec3& finger, const Vec3& pull_m, TickReport& report) {
   state.touching = true;
-  report.target = finger + state.stiffness * (state.position + state.rest_offset_m - finger);
+  report.target = finger + state.stiffness * (state.anchor() - finger);
   report.held_pull_m = pull_m;
 }
 

@@ -25,7 +25,7 @@ struct GoalOfTick {
 TickReport tickToGoal(ProxyState& state, const ProxySettings& settings, const Vec3& finger, const GoalOfTick& goal,
                       TickTo tick_to);
 
-/// After such a tick: the servo pulls the finger to the rest of the spring, of which contacts do not hold `pull_m`.
+/// After such a tick: the servo pulls the finger to the anchor of the spring, of which contacts do not hold `pull_m`.
 /// RT-safe.
 void setHeldPull(ProxyState& state, const Vec3& finger, const Vec3& pull_m, TickReport& report);
 

@@ -44,7 +44,7 @@ TickReport stiffened(const TickReport& report, const Vec3& finger, ProxyState& s
 TickReport tickInMatter(ProxyState& state, const ProxySettings& settings, const MatterForce& matter, const Vec3& finger,
                         TickTo tick_to) {
   const double spring_N_m = settings.spring_N_m * state.stiffness;
-  const Vec3 gap = finger - state.position - state.rest_offset_m;
+  const Vec3 gap = finger - state.position - state.yielding.offset_m;
   const double pull_N = spring_N_m * gap.norm() / settings.world_per_device;
   if (!(pull_N > 0)) return tick_to(finger, state, 0);
   const double harder = 1 + matter.drag_Ns_m / (settings.period_s * spring_N_m);
@@ -61,7 +61,7 @@ TickReport tickInMatter(ProxyState& state, const ProxySettings& settings, const 
   };
   TickReport report = tickToGoal(state, settings, finger, {place, before_J}, tick_held);
   for (ProxyContact& contact : report.contacts) contact.multiplier_m *= harder;
-  const Vec3 rest = state.position + state.rest_offset_m;
+  const Vec3 rest = state.anchor();
   setHeldPull(state, finger, rest - finger - (report.contacts.empty() ? 0 : harder) * (rest - place), report);
   return report;
 }

@@ -57,13 +57,13 @@ TickReport notRun(Ending why, const Vec3& target) {
 // A tick in which a surface may adhere or yield. One that has left a surface that yields goes on to the finger itself.
 TickReport tickYielding(const Vec3& finger, ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
                         int most_looks) {
-  const Vec3 from = finger - state.rest_offset_m;
+  const Vec3 from = finger - state.yielding.offset_m;
   TickReport report = state.adhering.empty() ? Tick(scene, settings, state, from, most_looks).run()
                                              : tickAdhering(state, scene, settings, from, most_looks);
-  if (state.rest_offset_m.isZero(0)) return report;
-  report.target += state.rest_offset_m;
+  if (state.yielding.offset_m.isZero(0)) return report;
+  report.target += state.yielding.offset_m;
   if (!report.contacts.empty() || report.used_up_at > 0) return report;
-  dropRest(state);
+  state.yielding.dropOffset();
   const int looks = report.looks;
   const double injected_J = report.injected_J;
   report = Tick(scene, settings, state, finger, most_looks - looks).run();
@@ -96,7 +96,7 @@ TickReport tickUnpierced(ProxyState& state, const SceneAt& scene, const ProxySet
     return notRun(Ending::kUnplaced, finger);
   const double shared_J = sharePull(state, scene, settings, finger);
   const double moved_J = carryAlong(state, scene, settings, finger);
-  if (!canBeFinger(finger - state.rest_offset_m)) dropRest(state);
+  if (!canBeFinger(finger - state.yielding.offset_m)) state.yielding.dropOffset();
   TickReport report = tickSnappedOrInMatter(state, scene, settings, finger, most_looks);
   report.moved_J = moved_J;
   report.injected_J += shared_J;

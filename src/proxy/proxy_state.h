@@ -1,6 +1,7 @@
 // The proxy's settings, and the state that a tick leaves for the next one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -51,6 +52,17 @@ struct AdheringContact {
 };
 using AdheringContacts = FixedVector<AdheringContact, kMaxActive>;
 
+/// What friction remembers from tick to tick (friction.h).
+struct Sticking {
+  double since_slip_s = accuracy::kStuck_s;  ///< time since the last slip; from kStuck_s on the proxy is stuck
+  PreslidingSprings springs{};               ///< on which friction holds the proxy (presliding.h)
+
+  bool isStuck() const { return since_slip_s >= accuracy::kStuck_s; }
+  void goOn(bool slipped, double period_s) {
+    since_slip_s = slipped ? 0 : std::min(since_slip_s + period_s, accuracy::kStuck_s);
+  }
+};
+
 /// A contact of the last tick, as one of the springs that yield (yielding.h).
 struct YieldingContact {
   std::uint64_t key = 0;        ///< of the instance
@@ -64,6 +76,17 @@ struct YieldingContact {
 };
 using YieldingContacts = FixedVector<YieldingContact, kMaxActive>;
 
+/// Where the spring is fixed as contacts yield (yielding.h).
+struct Yielding {
+  YieldingContacts contacts{};    ///< of the last tick; empty if none of them yields
+  double stiffness = 1;           ///< s of these contacts
+  Vec3 offset_m = Vec3::Zero();   ///< where the spring is fixed - proxy; 0 if nothing yields
+  Vec3 sharing_m = Vec3::Zero();  ///< the part of it by which contacts share the pull as they yield
+  Vec3 pressed_m = Vec3::Zero();  ///< s times the rest of it, C F_k: times K what meshes press by F_k
+
+  void dropOffset() { offset_m = sharing_m = pressed_m = Vec3::Zero(); }
+};
+
 /// A surface that held the proxy in the last tick (changed_stiffness.h).
 struct HeldSurface {
   std::uint64_t key = 0;                   ///< of the instance
@@ -72,7 +95,12 @@ struct HeldSurface {
   double multiplier_m = 0;                 ///< its weight in the mean stiffness
   double stiffness = 1;                    ///< s
 };
-using HeldSurfaces = FixedVector<HeldSurface, kMaxActive>;
+
+/// The stiffness in the last tick (changed_stiffness.h).
+struct HeldStiffness {
+  FixedVector<HeldSurface, kMaxActive> surfaces{};  ///< of its contacts
+  std::optional<double> said{};                     ///< what the user had set for all surfaces
+};
 
 /// Keys of objects that have let the proxy through and still overlap it (piercing.h).
 using PiercedObjects = FixedVector<std::uint64_t, SceneAt::kMaxLeftOut>;
@@ -89,31 +117,28 @@ struct HeldSnap {
 
 /// World frame. Owned by the proxy loop.
 struct ProxyState {
-  Vec3 position = Vec3::Zero();        ///< centre of the sphere
-  bool free = false;                   ///< false until a position clear of the scene has been found near the finger
-  bool touching = false;               ///< the last tick ended in contact, between two contacts, or held by a snap
-  double rest_s = accuracy::kStuck_s;  ///< time since the last slip; from kStuck_s on it is stuck
-  PreslidingSprings presliding{};      ///< on which friction holds the proxy
-  double stiffness = 1;                ///< stiffness s of the last tick's target; 1 without contact
-  std::int64_t time_ns = 0;            ///< scene time of the last tick
-  std::uint64_t snapshot = 0;          ///< number of the snapshot of the last tick; 0: none yet
-  std::uint64_t carrier = 0;           ///< key of the object whose friction or snap holds the proxy; 0: none
+  Vec3 position = Vec3::Zero();  ///< centre of the sphere
+  bool free = false;             ///< false until a position clear of the scene has been found near the finger
+  bool touching = false;         ///< the last tick ended in contact, between two contacts, or held by a snap
+  Sticking sticking{};
+  double stiffness = 1;        ///< stiffness s of the last tick's target; 1 without contact
+  std::int64_t time_ns = 0;    ///< scene time of the last tick
+  std::uint64_t snapshot = 0;  ///< number of the snapshot of the last tick; 0: none yet
+  std::uint64_t carrier = 0;   ///< key of the object whose friction or snap holds the proxy; 0: none
   HeldSnap snap{};
   PiercedObjects pierced{};
   MatterObjects within{};
-  AdheringContacts adhering{};             ///< adhesive contacts of the last tick (adhesion.h)
-  HeldSurfaces held{};                     ///< of the contacts of the last tick
-  std::optional<double> stiffness_said{};  ///< what the user set for all surfaces in that tick
-  YieldingContacts yielding{};             ///< contacts of the last tick; empty if none of them yields
-  double yielding_stiffness = 1;           ///< s of these contacts
-  Vec3 rest_offset_m = Vec3::Zero();       ///< where the spring is fixed - proxy; 0 if nothing yields (yielding.h)
-  Vec3 sharing_m = Vec3::Zero();           ///< the part of it by which contacts share the pull as they yield
-  Vec3 pressed_m = Vec3::Zero();           ///< s times the rest of it, C F_k: times K what meshes press by F_k
+  AdheringContacts adhering{};  ///< adhesive contacts of the last tick (adhesion.h)
+  HeldStiffness held{};
+  Yielding yielding{};
   ComplianceEstimate estimate{};
   Ledger ledger{};
   int out_of_work = 0;  ///< consecutive ticks that ran out of work; more of them raise the limit (mostWork in tick.cpp)
   StartSearch start{};  ///< used while the proxy is not free
   ProxyCache cache{};
+
+  /// Where the spring is fixed: at the proxy, but for what yields.
+  Vec3 anchor() const { return position + yielding.offset_m; }
 };
 
 }  // namespace hl

@@ -62,9 +62,7 @@ std::optional<Vec3> capture(HeldSnap& held, const SceneAt& scene, const ProxySet
 }
 
 // Where the spring is fixed before the tick.
-Vec3 restOf(const ProxyState& state, const Vec3& finger) {
-  return state.touching ? Vec3(state.position + state.rest_offset_m) : finger;
-}
+Vec3 restOf(const ProxyState& state, const Vec3& finger) { return state.touching ? state.anchor() : finger; }
 
 // The part of the way to `goal` for which the tank pays.
 Vec3 affordable(const ProxyState& state, const ProxySettings& settings, const Vec3& finger, const Vec3& goal) {
@@ -104,7 +102,7 @@ TickReport tickSnapped(ProxyState& state, const ProxySettings& settings, const V
     state.snap = {};
     return tick_to(finger, state, report.looks);
   }
-  const Vec3 held = report.contacts.empty() ? Vec3(state.position + state.rest_offset_m) : aim;
+  const Vec3 held = report.contacts.empty() ? state.anchor() : aim;
   setHeldPull(state, finger, held - finger, report);
   report.snap_point = goal;
   return report;

@@ -22,7 +22,7 @@ inline double springEnergy_J(double spring_N_m, double stiffness, double distanc
 
 /// The same of the proxy's spring, for a finger at this place.
 inline double springEnergy_J(const ProxySettings& settings, const ProxyState& state, const Vec3& finger) {
-  const Vec3 gap_D = (state.position + state.rest_offset_m - finger) / settings.world_per_device;
+  const Vec3 gap_D = (state.anchor() - finger) / settings.world_per_device;
   return springEnergy_J(settings.spring_N_m, state.stiffness, gap_D.squaredNorm());
 }
 

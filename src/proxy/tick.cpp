@@ -30,7 +30,7 @@ Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& stat
       goal_(finger),
       booking_(state, settings, finger),
       rules_(scene, settings, input_.tolerance,
-             {state.touching && state.rest_s < accuracy::kStuck_s, state.presliding, feltSpring_N_m(settings, state),
+             {state.touching && !state.sticking.isStuck(), state.sticking.springs, feltSpring_N_m(settings, state),
               loads}),
       constraints_(input_),
       walk_(input_, state.cache),
@@ -214,8 +214,8 @@ void Tick::close(TickReport& report) {
       surfaces.add(active.multiplier_m, rules_.stiffnessAt(active.place));
   }
   state_.out_of_work = outOfWork(state_, report.ending);
-  state_.presliding = rules_.springs();
-  state_.rest_s = rules_.hasSlipped() ? 0 : std::min(state_.rest_s + input_.settings.period_s, accuracy::kStuck_s);
+  state_.sticking.springs = rules_.springs();
+  state_.sticking.goOn(rules_.hasSlipped(), input_.settings.period_s);
   booking_.close(state_, end, surfaces, causes, report);
 }
 

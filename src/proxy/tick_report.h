@@ -16,8 +16,8 @@ namespace hl {
 struct ProxyContact {
   Vec3 point;   ///< on the surface, nearest the proxy
   Vec3 normal;  ///< unit, from the surface to the proxy: the shading normal
-  /// Multiplier: rest of the spring - finger = sum multiplier_m * normal + held_pull_m. The rest is the proxy, unless a
-  /// surface yields (yielding.h). Times K s: the normal force. Negative: the surface pulls.
+  /// Multiplier: anchor of the spring - finger = sum multiplier_m * normal + held_pull_m. The anchor is the proxy,
+  /// unless a surface yields (yielding.h). Times K s: the normal force. Negative: the surface pulls.
   double multiplier_m;
   PrimitiveId primitive;
   double stiffness;        ///< s of the surface at this point, 0..1
@@ -53,7 +53,7 @@ struct TickReport {
   FixedVector<ProxyContact, kMaxActive> contacts;
   Vec3 target =
       Vec3::Zero();  ///< where the servo pulls the finger: the rest of its spring, softened by the surface stiffness
-  /// Of a proxy that a snap (snapping.h) or matter (matter_drag.h) holds: its part of rest of the spring - finger,
+  /// Of a proxy that a snap (snapping.h) or matter (matter_drag.h) holds: its part of anchor of the spring - finger,
   /// which no contact holds. Times K s it is its force. World.
   Vec3 held_pull_m = Vec3::Zero();
   Vec3 snap_point = Vec3::Zero();  ///< of the snap, world

@@ -80,7 +80,7 @@ struct YieldingSpring {
   bool uniform = true;  // all contacts have this s
 };
 
-// s is the mean of the contacts. The rest of the spring is where s gives what they pull together:
+// s is the mean of the contacts. The anchor of the spring is where s gives what they pull together:
 //
 //   lift      what the meshes press by being computed for F_k: of each object s_i C F_k, to which each of its contacts
 //             adds its share; of one object C F_k itself
@@ -88,7 +88,7 @@ struct YieldingSpring {
 YieldingSpring springOf(const ProxyState& state, const SceneAt& scene, const ProxySettings& settings) {
   MeanStiffness mean, surfaces;
   Vec3 lift_m = Vec3::Zero(), whole_m = Vec3::Zero(), yielded_m = Vec3::Zero();
-  for (const YieldingContact& contact : state.yielding) {
+  for (const YieldingContact& contact : state.yielding.contacts) {
     std::uint32_t number = 0;
     ObjectYielding object;
     if (scene.snapshot().find(contact.key, number))
@@ -130,24 +130,25 @@ MeanStiffness yieldingStiffness(const SceneAt& scene, const ProxySettings& setti
 }
 
 double sharePull(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
-  if (state.yielding.empty()) return 0;
+  Yielding& yielding = state.yielding;
+  if (yielding.contacts.empty()) return 0;
   const YieldingSpring spring = springOf(state, scene, settings);
   // Where s has changed, what the meshes press by F_k has not: so its lift has, and that is a part of the way.
-  const bool changed = !spring.uniform && state.yielding_stiffness > 0;
+  const bool changed = !spring.uniform && yielding.stiffness > 0;
   const Vec3 sharing_m =
-      changed ? Vec3(state.rest_offset_m - state.pressed_m / state.yielding_stiffness) : state.sharing_m;
+      changed ? Vec3(yielding.offset_m - yielding.pressed_m / yielding.stiffness) : yielding.sharing_m;
   const Vec3 way = spring.sharing_m - sharing_m;
-  state.sharing_m = sharing_m;
+  yielding.sharing_m = sharing_m;
   if (way.isZero(0)) return 0;
   const double before_J = springEnergy_J(settings, state, finger);
   const double joule_per_square =
       springEnergy_J(settings.spring_N_m, state.stiffness, 1) / (settings.world_per_device * settings.world_per_device);
   const double budget_J = state.ledger.budget_J(settings.ledger);
   const bool free = !(joule_per_square > 0) || !std::isfinite(budget_J);
-  const Vec3 e = state.position + state.rest_offset_m - finger;
+  const Vec3 e = state.anchor() - finger;
   const Vec3 step = (free ? 1 : partWithin(e, way, budget_J / joule_per_square)) * way;
-  state.sharing_m += step;
-  state.rest_offset_m += step;
+  yielding.sharing_m += step;
+  yielding.offset_m += step;
   const double change_J = springEnergy_J(settings, state, finger) - before_J;
   if (change_J > 0) state.ledger.add(EnergyCause::kStiffness, change_J);
   state.ledger.book(change_J, true);
@@ -155,30 +156,30 @@ double sharePull(ProxyState& state, const SceneAt& scene, const ProxySettings& s
 }
 
 void yieldToFrames(ProxyState& state, const SceneAt& scene, const ProxySettings& settings) {
-  if (state.yielding.empty()) return dropRest(state);
+  Yielding& yielding = state.yielding;
+  if (yielding.contacts.empty()) return yielding.dropOffset();
   const YieldingSpring spring = springOf(state, scene, settings);
-  if (!(spring.stiffness > 0 && state.yielding_stiffness > 0)) return dropRest(state);
-  state.rest_offset_m = spring.lift_m + state.sharing_m;
-  state.pressed_m = spring.stiffness * spring.lift_m;
+  if (!(spring.stiffness > 0 && yielding.stiffness > 0)) return yielding.dropOffset();
+  yielding.offset_m = spring.lift_m + yielding.sharing_m;
+  yielding.pressed_m = spring.stiffness * spring.lift_m;
   // What the tick has left of the stiffness, for want of energy, stays the same part of it.
-  state.stiffness = std::min(1.0, state.stiffness * (spring.stiffness / state.yielding_stiffness));
-  state.yielding_stiffness = spring.stiffness;
+  state.stiffness = std::min(1.0, state.stiffness * (spring.stiffness / yielding.stiffness));
+  yielding.stiffness = spring.stiffness;
 }
-
-void dropRest(ProxyState& state) { state.rest_offset_m = state.sharing_m = state.pressed_m = Vec3::Zero(); }
 
 void rememberYielding(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const TickReport& report,
                       const Vec3& finger) {
+  Yielding& yielding = state.yielding;
   const bool may_yield = report.yields || state.estimate.key != 0;  // the estimate may be newer than the report
-  if (!may_yield || !anyYields(scene, settings, state.estimate, report.contacts)) return state.yielding.clear();
-  state.yielding = yieldingOf(scene, settings, report.contacts, state.position + state.rest_offset_m - finger);
-  if (state.yielding.size() > 1) {  // of rest - finger to those of proxy - finger
-    const PartsAlongNormals offset = partsAlongNormals(report.contacts, state.rest_offset_m);
+  if (!may_yield || !anyYields(scene, settings, state.estimate, report.contacts)) return yielding.contacts.clear();
+  yielding.contacts = yieldingOf(scene, settings, report.contacts, state.anchor() - finger);
+  if (yielding.contacts.size() > 1) {  // of anchor - finger to those of proxy - finger
+    const PartsAlongNormals offset = partsAlongNormals(report.contacts, yielding.offset_m);
     const Vec3 rest = offset.rest / static_cast<double>(report.contacts.size());
     for (std::size_t i = 0; i < report.contacts.size(); ++i)
-      state.yielding[i].part_m -= offset.along[i] * report.contacts[i].normal + rest;
+      yielding.contacts[i].part_m -= offset.along[i] * report.contacts[i].normal + rest;
   }
-  state.yielding_stiffness = springOf(state, scene, settings).stiffness;
+  yielding.stiffness = springOf(state, scene, settings).stiffness;
 }
 
 }  // namespace hl

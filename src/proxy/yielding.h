@@ -33,21 +33,18 @@ namespace hl {
 bool anyYields(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
                const FixedVector<ProxyContact, kMaxActive>& contacts);
 
-/// Stiffness s of contacts of which one yields, of which the whole pull is along `e`: rest of the spring - finger.
+/// Stiffness s of contacts of which one yields, of which the whole pull is along `e`: anchor of the spring - finger.
 /// RT-safe.
 MeanStiffness yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
                                 const FixedVector<ProxyContact, kMaxActive>& contacts, const Vec3& e);
 
-/// Before a tick to `finger`, by the contacts of the last one: moves the rest of the spring to where contacts that
+/// Before a tick to `finger`, by the contacts of the last one: moves the anchor of the spring to where contacts that
 /// yield differently share the pull, as far as the ledger pays for it. Returns the energy change, J, which is booked.
 /// RT-safe.
 double sharePull(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
 
-/// Then: changes stiffness and rest of the spring by what the frames of clients have changed since. RT-safe.
+/// Then: changes stiffness and anchor of the spring by what the frames of clients have changed since. RT-safe.
 void yieldToFrames(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
-
-/// The spring is fixed at the proxy again. RT-safe.
-void dropRest(ProxyState& state);
 
 /// After a tick to `finger`, or to where a snap drew it: remembers the contacts, if one of them yields
 /// (TickReport::yields). RT-safe.

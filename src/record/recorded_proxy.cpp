@@ -108,21 +108,22 @@ void readYielding(const proto::RecordedProxy& in, ProxyState& state) {
   checkVector(kYielding, "pressed_m", values.pressed_m);
   checkEstimate(values.estimate);
   checkRanges(kYielding, {{"stiffness", values.stiffness, 0, 1}});
-  state.rest_offset_m = values.rest_offset_m;
-  state.sharing_m = values.sharing_m;
-  state.pressed_m = values.pressed_m;
-  state.yielding_stiffness = values.stiffness;
+  state.yielding.offset_m = values.rest_offset_m;
+  state.yielding.sharing_m = values.sharing_m;
+  state.yielding.pressed_m = values.pressed_m;
+  state.yielding.stiffness = values.stiffness;
   state.estimate = values.estimate;
   for (const proto::Values& one : in.yielding_contacts()) {
     YieldingContact contact;
     readValues(one, kYieldingContact, contact);
     checkYielding(contact);
-    if (!state.yielding.push(contact)) throw Error("the contacts that yield make no sense: there are too many");
+    if (!state.yielding.contacts.push(contact))
+      throw Error("the contacts that yield make no sense: there are too many");
   }
 }
 
-HeldSurfaces heldOf(const proto::RecordedProxy& in) {
-  HeldSurfaces held;
+FixedVector<HeldSurface, kMaxActive> heldOf(const proto::RecordedProxy& in) {
+  FixedVector<HeldSurface, kMaxActive> held;
   for (const proto::Values& one : in.held()) {
     HeldSurface surface;
     readValues(one, kHeldSurface, surface);
@@ -166,25 +167,37 @@ Keys keysOf(const google::protobuf::RepeatedField<std::uint64_t>& in, const std:
 
 void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
   const ProxyState& state = memory.state;
-  const MemoryValues values{
-      state.position,  state.free,        state.touching,     state.rest_s,  state.presliding.stretch_m,
-      state.stiffness, state.time_ns,     state.snapshot,     state.carrier, state.snap,
-      state.ledger,    state.out_of_work, state.start.next(), memory.fading, memory.last_target,
-      memory.restarts};
+  const MemoryValues values{state.position,
+                            state.free,
+                            state.touching,
+                            state.sticking.since_slip_s,
+                            state.sticking.springs.stretch_m,
+                            state.stiffness,
+                            state.time_ns,
+                            state.snapshot,
+                            state.carrier,
+                            state.snap,
+                            state.ledger,
+                            state.out_of_work,
+                            state.start.next(),
+                            memory.fading,
+                            memory.last_target,
+                            memory.restarts};
   toProto(valuesOf(values), *out.mutable_memory());
   for (const AdheringContact& contact : state.adhering) {
     add(*out.mutable_adhering(), contact.normal);
     out.add_adhering(contact.adhesion_N);
   }
-  for (const HeldSurface& surface : state.held) toProto(valuesOf(surface), *out.add_held());
-  out.set_presliding_n_m(state.presliding.stiffness_N_m);
-  if (state.stiffness_said) out.set_stiffness_said(*state.stiffness_said);
+  for (const HeldSurface& surface : state.held.surfaces) toProto(valuesOf(surface), *out.add_held());
+  out.set_presliding_n_m(state.sticking.springs.stiffness_N_m);
+  if (state.held.said) out.set_stiffness_said(*state.held.said);
   for (const std::uint64_t key : state.pierced) out.add_pierced(key);
   for (const std::uint64_t key : state.within) out.add_within(key);
-  toProto(valuesOf(YieldingValues{state.rest_offset_m, state.sharing_m, state.pressed_m, state.yielding_stiffness,
-                                  state.estimate}),
+  toProto(valuesOf(YieldingValues{state.yielding.offset_m, state.yielding.sharing_m, state.yielding.pressed_m,
+                                  state.yielding.stiffness, state.estimate}),
           *out.mutable_yielding());
-  for (const YieldingContact& contact : state.yielding) toProto(valuesOf(contact), *out.add_yielding_contacts());
+  for (const YieldingContact& contact : state.yielding.contacts)
+    toProto(valuesOf(contact), *out.add_yielding_contacts());
 }
 
 ProxyMemory fromProto(const proto::RecordedProxy& in) {
@@ -196,24 +209,25 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.position = values.position;
   state.free = values.free;
   state.touching = values.touching;
-  state.rest_s = values.rest_s;
+  state.sticking.since_slip_s = values.rest_s;
   checkRanges(kMemory, {{"presliding_N_m", in.presliding_n_m(), 0, kMaxMemory}});
-  state.presliding = {values.presliding_m, in.presliding_n_m()};
+  state.sticking.springs = {values.presliding_m, in.presliding_n_m()};
   state.stiffness = values.stiffness;
   state.time_ns = values.time_ns;
   state.snapshot = values.snapshot;
   state.carrier = values.carrier;
   state.snap = values.snap;
-  state.held = heldOf(in);
+  state.held.surfaces = heldOf(in);
   if (in.has_stiffness_said()) {
     checkRanges(kMemory, {{"stiffness_said", in.stiffness_said(), 0, 1}});
-    state.stiffness_said = in.stiffness_said();
+    state.held.said = in.stiffness_said();
   }
   state.adhering = adheringOf(in);
   state.pierced = keysOf<PiercedObjects>(in.pierced(), "the objects that let the proxy through");
   state.within = keysOf<MatterObjects>(in.within(), "the objects in whose matter the proxy is");
   readYielding(in, state);
-  if (!state.held.empty() && !state.yielding.empty() && state.held.size() != state.yielding.size())
+  if (!state.held.surfaces.empty() && !state.yielding.contacts.empty() &&
+      state.held.surfaces.size() != state.yielding.contacts.size())
     throw Error("the surfaces that hold the proxy make no sense: not all of them yield");
   state.ledger = values.ledger;
   state.out_of_work = values.out_of_work;

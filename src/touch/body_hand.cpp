@@ -36,16 +36,15 @@ HandAtBodies BodyHand::before(const ProxyState& state, const ProxySettings& sett
   hand.contacts = held_by_;
   hand.proxy = state.position;
   hand.radius_m = settings.radius;
-  hand.stretch = state.position + state.rest_offset_m - finger;
+  hand.stretch = state.anchor() - finger;
   if (pulls && state.free) hand.spring_N_m = settings.spring_N_m * state.stiffness / settings.world_per_device;
   return hand;
 }
 
 void BodyHand::hold(const SceneAt& scene, const ProxyState& state, const TickReport& report, const Vec3& finger) {
   for (const ProxyContact& contact : report.contacts) {
-    const bool sticks = state.rest_s >= accuracy::kStuck_s;
     held_by_.push({scene.instance(contact.primitive).key, contact.point, contact.normal, contact.static_friction,
-                   contact.static_friction, !sticks});
+                   contact.static_friction, !state.sticking.isStuck()});
   }
   const std::optional<SnapPoint> snap = heldPoint(state.snap, scene, finger);
   if (!snap) return;

@@ -55,7 +55,7 @@ void ProxyLoop::restart() {
 // that is still on its way from a surface goes on pulling.
 Vec3 ProxyLoop::pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const {
   if (!touches(state, report)) return Vec3::Zero();
-  return state.stiffness * (workspace_.toDevice(state.position + state.rest_offset_m) - finger_D);
+  return state.stiffness * (workspace_.toDevice(state.anchor()) - finger_D);
 }
 
 // By how much less the new scene pulls the finger than what came before: the last tick is made once more in the new
@@ -158,7 +158,7 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   const Vec3 fading_D = blend_.step(settings_.period_s);
   ServoTarget target{finger_D, now_ns, touching, touching ? state_.stiffness : last_target_.stiffness,
                      report.injected_J + std::max(0.0, report.moved_J)};
-  if (touching) target.proxy_D = workspace_.toDevice(state_.position + state_.rest_offset_m);
+  if (touching) target.proxy_D = workspace_.toDevice(state_.anchor());
   const double stiffness = last_target_.valid ? std::max(target.stiffness, last_target_.stiffness) : target.stiffness;
   if (blend_.active() && report.valid() && stiffness > 0) {
     target.valid = true;

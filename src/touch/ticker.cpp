@@ -60,7 +60,7 @@ void Ticker::show(const ProxyStep* step) {
     view_.contacts = step->report.contacts;
     view_.touched = step->touched;
     view_.snap = step->snap;
-    view_.slipping = state.touching && state.rest_s == 0;
+    view_.slipping = state.touching && state.sticking.since_slip_s == 0;
     view_.ended.add(step->report.ending);
   }
   view_.ledger = state.ledger;

@@ -48,7 +48,7 @@ class Hash {
 
 void addTick(Hash& hash, const ProxyState& state, const TickReport& report) {
   hash.add(state.position);
-  hash.add(state.presliding.stretch_m);
+  hash.add(state.sticking.springs.stretch_m);
   hash.add(state.stiffness);
   hash.add(report.target);
   hash.add(report.injected_J);

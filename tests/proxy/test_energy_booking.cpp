@@ -129,8 +129,8 @@ TEST(EnergyBooking, ComingIntoContactChargesNothing) {
 TEST(EnergyBooking, InTheOpenTheTargetIsTheProxyAndNothingIsStuck) {
   const ProxySettings settings = settingsOf(LedgerMode::kTank);
   ProxyState state = heldBy(0.3);
-  state.rest_s = 0;
-  state.presliding.stretch_m = Vec3(1e-6, 0, 0);
+  state.sticking.since_slip_s = 0;
+  state.sticking.springs.stretch_m = Vec3(1e-6, 0, 0);
   EnergyBooking booking(state, settings, kFinger);
   state.position = kFinger;
   TickReport report;
@@ -138,8 +138,8 @@ TEST(EnergyBooking, InTheOpenTheTargetIsTheProxyAndNothingIsStuck) {
   EXPECT_EQ(report.target, kFinger);
   EXPECT_FALSE(state.touching);
   EXPECT_EQ(state.stiffness, 1);
-  EXPECT_EQ(state.rest_s, accuracy::kStuck_s);
-  EXPECT_EQ(state.presliding.stretch_m, Vec3(Vec3::Zero()));
+  EXPECT_EQ(state.sticking.since_slip_s, accuracy::kStuck_s);
+  EXPECT_EQ(state.sticking.springs.stretch_m, Vec3(Vec3::Zero()));
 }
 
 TEST(EnergyBooking, OnItsWayItAddsNothingAndFromTheOpenItPullsNowhere) {

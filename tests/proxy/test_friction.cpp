@@ -253,7 +253,7 @@ TEST(Friction, PreSlidingNeverPullsTheProxyIntoAnotherSurface) {
   settings.surfaces = {};
   ProxyState state = startProxy(*scene, settings, {0, 0.01, 0});
   for (const double x : {0.0, -0.5 * kDepth}) tick(state, *scene, settings, {x, kRadius - kDepth, 0});
-  EXPECT_LT(state.presliding.stretch_m.x(), -0.05 * kDepth);
+  EXPECT_LT(state.sticking.springs.stretch_m.x(), -0.05 * kDepth);
   tick(state, *scene, settings, {0.02, 0.01, 0});
   EXPECT_LE(state.position.x(), 0.02 - kRadius);
 }

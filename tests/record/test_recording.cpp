@@ -265,7 +265,8 @@ TEST(RecordedScene, HasItsDepthImage) {
   EXPECT_EQ(is.bounds.min, was.bounds.min);
   const auto& frame = dynamic_cast<const DepthFrame&>(*is.source);
   for (ElementId id = 0; id < is.count(); id += 997) {
-    if (frame.cells().exists(cellOf(id, 640))) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
+    if (!frame.cells().exists(cellOf(id, 640))) continue;
+    ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "block_scenes.h"
 #include "builtin.h"
 #include "geometry/queries.h"
 #include "page/viewer_feed.h"
@@ -163,6 +164,18 @@ TEST(ServoRate, IsTheDevicesOwnUnlessOneIsGivenOrTheHighestThatHoldsIsWanted) {
   device.servo_rate_max_Hz = device.servo_rate_Hz = 500;
   EXPECT_EQ(upTo(1e5), 500);
   EXPECT_TRUE(tried.empty());
+}
+
+// The thread that moves the hand looks at bodies that the servo moves: ThreadSanitizer sees whether it may.
+TEST(TouchSession, TheHandExploresWhileBodiesMove) {
+  std::vector<test::Block> blocks(8);
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].at = Vec3(0.05 * static_cast<double>(i) - 0.2, 0.2, 0);
+  const auto scene = test::sceneOfBlocks(blocks, 0.3, 9.81);
+  TouchSession session(scene, {});
+  session.start();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_TRUE(session.exploring());
+  EXPECT_LT(scene->instances[1].body->poses->shown().pose.origin.y(), 0.19) << "it has fallen";
 }
 
 // A first world is fitted to the hand: around the origin of the device, where nobody waits for it.
