@@ -35,6 +35,7 @@
 #include "io/text_words.h"
 #include "io/x3d_bodies.h"
 #include "io/x3d_document.h"
+#include "io/x3d_inlines.h"
 #include "io/x3d_plain.h"
 #include "io/x3d_prototypes.h"
 
@@ -199,7 +200,7 @@ std::optional<std::string> inPlaceOf(const ModelFile& file, std::vector<std::str
   if (file.ending != ".obj" && file.ending != ".x3d") return std::nullopt;
   const std::string text = contentOf(file.path).value_or("");
   if (file.ending == ".x3d" && text.size() > kMaxX3dBytes) return std::nullopt;
-  if (file.ending == ".x3d") return withoutPrototypes(text, warnings);
+  if (file.ending == ".x3d") return withInlines(file, withoutPrototypes(text, warnings), warnings);
   std::optional<std::string> cleaned = cleanedObj(text);
   if ((cleaned ? *cleaned : text).size() >= kMinObj) return cleaned;
   return cleaned.value_or(text) + std::string(kMinObj, '\n');
