@@ -32,7 +32,7 @@ LEVELS = {
 # The proxy knows no threads, devices or messages, and the servo knows no scene, although their levels would allow it.
 NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}, "scene": {"wire", "device"}}
 # Targets and generated headers that are not named after their folder.
-TARGET_FOLDERS = {"hl_proto": "wire", "hl_realtime_guard": "base", "hl_json": "base", "hl_url": "base", "hl_websocket": "wire", "hl": "apps", "hld": "apps", "hl_cad_program": "apps", "hl_vdb_program": "apps", "hl_ros_program": "apps", "hl_share_program": "apps", "hl_share_wire": "share", "hl_share_types": "dds", "hl_ros_wire": "ros", "hl_ros_keys": "ros", "hl_ros2_types": "dds", "hl_frames": "session", "hl_batch_shared": "batch", "hl_inproc_link": "client", "hl_websocket_link": "client",
+TARGET_FOLDERS = {"hl_proto": "wire", "hl_json": "base", "hl_url": "base", "hl_websocket": "wire", "hl": "apps", "hld": "apps", "hl_cad_program": "apps", "hl_vdb_program": "apps", "hl_ros_program": "apps", "hl_share_program": "apps", "hl_share_wire": "share", "hl_share_types": "dds", "hl_ros_wire": "ros", "hl_ros_keys": "ros", "hl_ros2_types": "dds", "hl_frames": "session", "hl_batch_shared": "batch", "hl_inproc_link": "client", "hl_websocket_link": "client",
                   "hl_links": "client"}
 HEADER_FOLDERS = {"hl.pb.h": "wire", "recording.pb.h": "wire", "fleet.pb.h": "wire", "share.pb.h": "wire"}
 # CMake's own words inside a link list, and the target that only carries compiler flags.

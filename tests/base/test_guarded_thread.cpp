@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/failing_allocation.h"
+#include "guard/failing_allocation.h"
 
 namespace hl::test_guarded_thread {
 namespace {

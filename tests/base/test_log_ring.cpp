@@ -6,7 +6,7 @@
 #include <atomic>
 #include <thread>
 
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_log_ring {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "base/realtime_guard.h"
 #include "draws.h"
+#include "guard/realtime_guard.h"
 #include "test_worlds.h"
 
 namespace hl::test_body_step {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "base/realtime_guard.h"
 #include "bodies/mesh_body.h"
 #include "bodies/world_hash.h"
 #include "draws.h"
+#include "guard/realtime_guard.h"
 #include "mesh_drawings.h"
 
 namespace hl::test_compounds {

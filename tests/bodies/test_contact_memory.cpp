@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <random>
 
-#include "base/realtime_guard.h"
 #include "bodies/world.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_contact_memory {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "base/realtime_guard.h"
 #include "bodies/test_worlds.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_hand_rows {
 namespace {

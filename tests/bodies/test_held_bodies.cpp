@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "base/realtime_guard.h"
 #include "bodies/convex_hull.h"
 #include "bodies/mesh_body.h"
 #include "draws.h"
+#include "guard/realtime_guard.h"
 #include "mesh_drawings.h"
 
 namespace hl::test_held_bodies {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 #include "joint_worlds.h"
 
 namespace hl::test_joints {

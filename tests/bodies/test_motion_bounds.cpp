@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "base/realtime_guard.h"
 #include "draws.h"
+#include "guard/realtime_guard.h"
 #include "test_worlds.h"
 
 namespace hl::test_motion_bounds {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/latest.h"
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_hand_pull {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_remote_port {
 namespace {

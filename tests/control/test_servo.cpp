@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_servo {
 namespace {

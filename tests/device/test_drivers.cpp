@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/realtime_guard.h"
 #include "device/fakes/bench.h"
 #include "device/open_device.h"
 #include "device/simulated_hand.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test::test_drivers {
 namespace {

@@ -7,10 +7,10 @@
 #include <random>
 
 #include "base/error.h"
-#include "base/realtime_guard.h"
 #include "cases.h"
 #include "device/hand_script.h"
 #include "device/phantom_arm.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_simulated_device {
 namespace {

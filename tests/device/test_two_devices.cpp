@@ -10,10 +10,10 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "base/realtime_guard.h"
 #include "device/device_claim.h"
 #include "device/fakes/twin_bench.h"
 #include "device/open_device.h"
+#include "guard/realtime_guard.h"
 #include "wait_for.h"
 
 namespace hl::test::test_two_devices {

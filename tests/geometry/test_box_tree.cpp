@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "base/realtime_guard.h"
 #include "geometry/scenes.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_box_tree {
 namespace {

@@ -9,12 +9,12 @@
 #include <limits>
 #include <map>
 
-#include "base/realtime_guard.h"
 #include "cases.h"
 #include "geometry/brute_force.h"
 #include "geometry/scenes.h"
 #include "geometry/sphere_tree.h"
 #include "geometry/wide_bvh.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_queries {
 namespace {

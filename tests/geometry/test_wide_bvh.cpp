@@ -15,12 +15,12 @@
 #include <limits>
 #include <numeric>
 
-#include "base/realtime_guard.h"
 #include "cases.h"
 #include "geometry/brute_force.h"
 #include "geometry/closest_point.h"
 #include "geometry/queries.h"
 #include "geometry/scenes.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_wide_bvh {
 namespace {

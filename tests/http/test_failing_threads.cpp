@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "base/failing_allocation.h"
 #include "base/guarded_thread.h"
+#include "guard/failing_allocation.h"
 #include "http/http_server.h"
 #include "monitor/touch_monitor.h"
 #include "page/viewer_feed.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "base/realtime_guard.h"
 #include "cases.h"
 #include "effect_scenes.h"
+#include "guard/realtime_guard.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 #include "solids.h"

@@ -6,8 +6,8 @@
 
 #include <memory>
 
-#include "base/realtime_guard.h"
 #include "effect_scenes.h"
+#include "guard/realtime_guard.h"
 #include "proxy/proxy.h"
 
 namespace hl::test_changed_stiffness {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "base/realtime_guard.h"
 #include "cases.h"
 #include "geometry/scenes.h"
+#include "guard/realtime_guard.h"
 #include "moving_scenes.h"
 
 namespace hl::test_field_forces {

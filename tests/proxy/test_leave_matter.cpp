@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "base/realtime_guard.h"
 #include "geometry/scenes.h"
+#include "guard/realtime_guard.h"
 #include "phantom.h"
 #include "proxy/clear_place.h"
 #include "proxy/proxy.h"

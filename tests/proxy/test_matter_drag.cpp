@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "base/realtime_guard.h"
 #include "cases.h"
 #include "effect_scenes.h"
+#include "guard/realtime_guard.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 #include "surfaces/iso_surface.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 #include "moving_scenes.h"
 #include "proxy/proxy.h"
 

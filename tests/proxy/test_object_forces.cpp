@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/realtime_guard.h"
 #include "geometry/scenes.h"
+#include "guard/realtime_guard.h"
 #include "moving_scenes.h"
 #include "proxy/proxy.h"
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/realtime_guard.h"
 #include "cases.h"
 #include "effect_scenes.h"
+#include "guard/realtime_guard.h"
 #include "moving_scenes.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/realtime_guard.h"
 #include "geometry/scenes.h"
+#include "guard/realtime_guard.h"
 #include "proxy/proxy.h"
 #include "scene/snapshot.h"
 #include "sphere_source.h"

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "base/finger_reach.h"
-#include "base/realtime_guard.h"
 #include "geometry/scenes.h"
+#include "guard/realtime_guard.h"
 #include "proxy/judge.h"
 
 namespace hl::test_proxy {

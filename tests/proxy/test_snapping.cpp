@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "base/realtime_guard.h"
 #include "cases.h"
 #include "geometry/scenes.h"
+#include "guard/realtime_guard.h"
 #include "moving_scenes.h"
 #include "proxy/judge.h"
 #include "proxy/object_forces.h"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/realtime_guard.h"
 #include "effect_scenes.h"
+#include "guard/realtime_guard.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/realtime_guard.h"
 #include "effect_scenes.h"
+#include "guard/realtime_guard.h"
 #include "proxy/proxy.h"
 
 namespace hl::test_yielding {

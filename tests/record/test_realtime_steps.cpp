@@ -16,10 +16,10 @@
 #include <span>
 #include <utility>
 
-#include "base/realtime_guard.h"
-#include "base/system_call_trap.h"
 #include "builtin.h"
 #include "device/simulated_device.h"
+#include "guard/realtime_guard.h"
+#include "guard/system_call_trap.h"
 #include "record/recorder.h"
 #include "touch/touch_session.h"
 #include "touch/touch_step.h"

@@ -8,10 +8,10 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "base/realtime_guard.h"
 #include "bodies/test_worlds.h"
 #include "bodies/world_hash.h"
 #include "device/simulated_device.h"
+#include "guard/realtime_guard.h"
 #include "io/value_messages.h"
 #include "record/recorded_bodies.h"
 #include "record/recorder.h"

@@ -17,9 +17,9 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "base/realtime_guard.h"
 #include "builtin.h"
 #include "device/simulated_device.h"
+#include "guard/realtime_guard.h"
 #include "io/value_messages.h"
 #include "record/replay.h"
 #include "temp_folder.h"

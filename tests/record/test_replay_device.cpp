@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 #include "io/value_messages.h"
 #include "record/recorded_servo.h"
 #include "record/recording_file.h"

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "base/realtime_guard.h"
 #include "geometry/queries.h"
+#include "guard/realtime_guard.h"
 #include "index_judge.h"
 #include "volumes.h"
 

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "base/realtime_guard.h"
 #include "clouds.h"
 #include "geometry/queries.h"
+#include "guard/realtime_guard.h"
 #include "index_judge.h"
 
 namespace hl::test_cloud_index {

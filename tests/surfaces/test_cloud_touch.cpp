@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/realtime_guard.h"
 #include "clouds.h"
+#include "guard/realtime_guard.h"
 #include "proxy/proxy.h"
 #include "scene/scene_model.h"
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/realtime_guard.h"
 #include "frames.h"
 #include "geometry/queries.h"
+#include "guard/realtime_guard.h"
 #include "index_judge.h"
 
 namespace hl::test_depth_frame {

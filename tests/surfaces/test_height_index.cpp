@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "base/realtime_guard.h"
 #include "fields.h"
 #include "geometry/queries.h"
+#include "guard/realtime_guard.h"
 #include "index_judge.h"
 
 namespace hl::test_height_index {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <functional>
 
-#include "base/realtime_guard.h"
 #include "builtin.h"
 #include "fields.h"
+#include "guard/realtime_guard.h"
 #include "proxy/proxy.h"
 #include "scene/append_part.h"
 #include "scene/bump_gain.h"

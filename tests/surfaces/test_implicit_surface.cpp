@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/realtime_guard.h"
 #include "expressions.h"
+#include "guard/realtime_guard.h"
 #include "index_judge.h"
 #include "proxy/proxy.h"
 #include "scene/scene_model.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 #include "proxy/proxy.h"
 #include "scene/iso_shape.h"
 #include "scene/scene_model.h"

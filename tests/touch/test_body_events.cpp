@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/realtime_guard.h"
 #include "block_scenes.h"
 #include "bodies/test_worlds.h"
 #include "device/open_device.h"
+#include "guard/realtime_guard.h"
 #include "proxy/effect_scenes.h"
 #include "touch/ticker.h"
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "base/realtime_guard.h"
 #include "bodies/test_worlds.h"
 #include "geometry/scenes.h"
+#include "guard/realtime_guard.h"
 #include "plain_servo.h"
 #include "touch/touch_step.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "base/realtime_guard.h"
 #include "block_scenes.h"
+#include "guard/realtime_guard.h"
 #include "plain_servo.h"
 #include "touch/touch_step.h"
 

@@ -6,10 +6,10 @@
 #include <deque>
 #include <random>
 
-#include "base/realtime_guard.h"
 #include "block_scenes.h"
 #include "device/open_device.h"
 #include "device/simulated_device.h"
+#include "guard/realtime_guard.h"
 #include "plain_servo.h"
 #include "touch/touch_step.h"
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <memory>
 
-#include "base/realtime_guard.h"
 #include "bodies/test_worlds.h"
+#include "guard/realtime_guard.h"
 #include "touch/body_world.h"
 
 namespace hl::test_joint_views {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 #include "scene/by_key.h"
 #include "scene/editable_scene.h"
 #include "scene/follow_on.h"

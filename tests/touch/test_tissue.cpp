@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 
 namespace hl::test_tissue {
 namespace {

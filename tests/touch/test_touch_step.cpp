@@ -5,9 +5,9 @@
 
 #include <deque>
 
-#include "base/realtime_guard.h"
 #include "device/hand_script.h"
 #include "device/simulated_device.h"
+#include "guard/realtime_guard.h"
 #include "proxy/effect_scenes.h"
 #include "touch/loop_chooser.h"
 

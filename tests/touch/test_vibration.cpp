@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "base/realtime_guard.h"
 #include "builtin.h"
 #include "device/simulated_device.h"
+#include "guard/realtime_guard.h"
 #include "proxy/effect_scenes.h"
 #include "tools/stability.h"
 #include "touch/touch_step.h"

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <typeinfo>
 
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // RealtimeGuard: a guard for tests of what the real-time loops call. While it lives, the first call of this thread to
-// the heap, to a lock that can wait, or to throw prints what it was and aborts. System calls: base/system_call_trap.h.
+// the heap, to a lock that can wait, or to throw prints what it was and aborts. System calls: guard/system_call_trap.h.
 // Works only in programs that link the object library hl_realtime_guard, which puts itself before these functions of
 // the C and C++ libraries. The sanitizers do so themselves: in their builds only operator new and delete are guarded.
 #pragma once

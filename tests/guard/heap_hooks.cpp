@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "base/failing_allocation.h"
-#include "base/realtime_guard.h"
+#include "guard/failing_allocation.h"
+#include "guard/realtime_guard.h"
 
 #define HL_HEAP_HOOK extern "C" [[gnu::visibility("default")]]
 

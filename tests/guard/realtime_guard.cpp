@@ -1,4 +1,4 @@
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 
 #include <unistd.h>
 

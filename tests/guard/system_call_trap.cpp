@@ -1,4 +1,4 @@
-#include "base/system_call_trap.h"
+#include "guard/system_call_trap.h"
 
 #include <linux/audit.h>
 #include <linux/filter.h>

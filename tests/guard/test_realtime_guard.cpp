@@ -1,5 +1,5 @@
 // RealtimeGuard: each thing that it forbids is found inside a guarded scope, and allowed outside of one.
-#include "base/realtime_guard.h"
+#include "guard/realtime_guard.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "base/system_call_trap.h"
+#include "guard/system_call_trap.h"
 
 namespace hl::test_realtime_guard {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/failing_allocation.h"
+#include "guard/failing_allocation.h"
 
 #include <atomic>
 #include <cstring>
