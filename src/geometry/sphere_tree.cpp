@@ -69,8 +69,7 @@ bool before(const Leaf& a, const Leaf& b, std::size_t axis) {
 
 class SphereTreeBuilder {
  public:
-  SphereTreeBuilder(std::vector<Leaf>& leaves, std::vector<Node>& nodes, SphereTree::BuildWork& work)
-      : leaves_(leaves), nodes_(nodes), work_(work) {
+  SphereTreeBuilder(std::vector<Leaf>& leaves, std::vector<Node>& nodes) : leaves_(leaves), nodes_(nodes) {
     const double lg = std::log2(static_cast<double>(std::max<std::size_t>(leaves.size(), 1)));
     depth_allowed_ = std::max(levelsByHalving(leaves.size()), static_cast<int>(kDepthPerLg * lg));
   }
@@ -111,7 +110,6 @@ class SphereTreeBuilder {
       low = low.cwiseMin(centre);
       high = high.cwiseMax(centre);
     }
-    work_.leaf_visits += end - begin;
     box_middle = 0.5 * (low + high);
     Eigen::Index longest = 0;
     (high - low).maxCoeff(&longest);
@@ -125,7 +123,6 @@ class SphereTreeBuilder {
     if (larger < end - begin && depth + 1 + levelsByHalving(larger) <= depth_allowed_) {
       return begin + static_cast<std::size_t>(cut - first);
     }
-    ++work_.median_splits;
     const auto median = first + (last - first) / 2;
     std::nth_element(first, median, last, [&](const Leaf& a, const Leaf& b) { return before(a, b, axis); });
     return begin + (end - begin) / 2;
@@ -137,14 +134,12 @@ class SphereTreeBuilder {
     for (std::size_t i = begin; i < end; ++i) {
       radius = std::max(radius, (centreOf(leaves_[i].sphere) - box_middle).norm() + leaves_[i].sphere.radius);
     }
-    work_.leaf_visits += end - begin;
     const Ball pair = around(child[0], child[1]);
     return pair.radius < radius ? roundedUp(pair.centre, pair.radius) : roundedUp(box_middle, radius);
   }
 
   std::vector<Leaf>& leaves_;
   std::vector<Node>& nodes_;
-  SphereTree::BuildWork& work_;
   int depth_allowed_ = 0;
   int depth_ = 0;
 };
@@ -212,7 +207,7 @@ SphereTree SphereTree::build(const Primitives& primitives) {
   if (tree.leaves_.empty()) return tree;
   assert(tree.leaves_.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()));
   tree.nodes_.reserve(tree.leaves_.size() - 1);
-  SphereTreeBuilder builder(tree.leaves_, tree.nodes_, tree.work_);
+  SphereTreeBuilder builder(tree.leaves_, tree.nodes_);
   Sphere root;
   builder.build(0, tree.leaves_.size(), 0, root);
   tree.depth_ = builder.depth();

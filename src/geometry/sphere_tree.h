@@ -31,11 +31,6 @@ class SphereTree final : public SpatialIndex {
     Sphere sphere;
     std::array<std::int32_t, 2> child{};
   };
-  /// Work of the build, for tests of its growth.
-  struct BuildWork {
-    std::uint64_t leaf_visits = 0;    ///< leaves visited, summed over all levels
-    std::uint64_t median_splits = 0;  ///< nodes where the middle split was replaced to limit the depth
-  };
 
   /// Builds in O(n lg n); at most 64 leaves per primitive. Setup only. Empty input gives an index that visits nothing.
   static SphereTree build(const Primitives& primitives);
@@ -47,12 +42,10 @@ class SphereTree final : public SpatialIndex {
 
   std::span<const Node> nodes() const { return nodes_; }  ///< nodes()[0] is the root; a single leaf has no node
   std::span<const Leaf> leaves() const { return leaves_; }
-  const BuildWork& buildWork() const { return work_; }
 
  private:
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
-  BuildWork work_;
   int depth_ = 0;
 };
 
