@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/plain_math.h"
 #include "bodies/hull_faces.h"
 
 namespace hl {
@@ -63,15 +62,6 @@ Hull hullOf(std::span<const Vec3> points) {
   shape.thin *= size;
   hull.shape = moved(std::move(shape), middle);
   return hull;
-}
-
-Convex coneShape(double half_length, double radius) {
-  std::vector<Vec3> points{half_length * Vec3::UnitZ()};
-  for (std::size_t i = 0; i < kCylinderSides; ++i) {
-    const double angle = 2 * EIGEN_PI * static_cast<double>(i) / kCylinderSides;
-    points.emplace_back(radius * plain::cos(angle), radius * plain::sin(angle), -half_length);
-  }
-  return hullOf(points).shape;
 }
 
 }  // namespace hl

@@ -35,7 +35,5 @@ Slab thinnestSlab(std::span<const Vec3> points, double size);
 /// reach farthest: one by one, that which lies farthest outside of what is kept. Throws Error if a point is not finite,
 /// or if they all lie in a plane (thinner than a millionth of their size).
 Hull hullOf(std::span<const Vec3> points);
-/// Along z, the base at -half_length, the tip at half_length; the base has 32 sides. Arguments > 0.
-Convex coneShape(double half_length, double radius);
 
 }  // namespace hl

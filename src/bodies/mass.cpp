@@ -166,12 +166,6 @@ Mass massOfDensity(double density_kg_m3, const Solid& solid) {
   return {density_kg_m3 * solid.volume_m3, solid.centre_O, density_kg_m3 * solid.inertia_m5};
 }
 
-Mass massOfMesh(double mass_kg, std::span<const Vec3> vertices, Triangles triangles) {
-  demandPositive(mass_kg, "the mass");
-  const Solid solid = solidOf(vertices, triangles);
-  return massOfDensity(mass_kg / solid.volume_m3, solid);
-}
-
 Solid solidOf(const Convex& polyhedron) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const Convex::Face& face : polyhedron.faces) {
@@ -179,12 +173,6 @@ Solid solidOf(const Convex& polyhedron) {
       triangles.push_back({face.corners[0], face.corners[i - 1], face.corners[i]});
   }
   return solidOf(polyhedron.vertices, triangles);
-}
-
-Mass massOfShape(double mass_kg, const Convex& polyhedron) {
-  demandPositive(mass_kg, "the mass");
-  const Solid solid = solidOf(polyhedron);
-  return massOfDensity(mass_kg / solid.volume_m3, solid);
 }
 
 }  // namespace hl

@@ -50,10 +50,5 @@ Solid sumOf(std::span<const Solid> solids);
 bool isMatterWithin(const Box& bounds, const Solid& solid);
 /// Throws Error unless the density, kg/m^3, is > 0.
 Mass massOfDensity(double density_kg_m3, const Solid& solid);
-/// Of uniform density. `mass_kg` > 0, or Error.
-Mass massOfMesh(double mass_kg, std::span<const Vec3> vertices,
-                std::span<const std::array<std::uint32_t, 3>> triangles);
-/// Of a polyhedron with faces, without its radius, in the frame of its vertices.
-Mass massOfShape(double mass_kg, const Convex& polyhedron);
 
 }  // namespace hl

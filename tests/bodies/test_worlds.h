@@ -45,6 +45,12 @@ inline Instance instanceOf(Model model, std::uint64_t key, const Motion& motion 
   return instance;
 }
 
+/// Of a polyhedron of uniform density.
+inline Mass massOfShape(double mass_kg, const Convex& polyhedron) {
+  const Solid solid = solidOf(polyhedron);
+  return massOfDensity(mass_kg / solid.volume_m3, solid);
+}
+
 inline Body block(std::uint64_t key, double mass_kg, const Vec3& half_m, double friction) {
   return {key, massOfBox(mass_kg, half_m), boxShape(half_m), {friction, friction, 0}};
 }
