@@ -35,7 +35,8 @@ ElementId IsoCells::idOf(const IsoCell& cell, unsigned triangle) const {
 }
 
 IsoCell IsoCells::at(const Place& place) const {
-  IsoCell cell{place, valuesAt(place), nullptr};
+  IsoCell cell{place, volume_->grid.cornersOf(place[0], place[1], place[2]), nullptr};
+  for (double& value : cell.value) value = inward_ * (value - iso_.value);
   findTriangles(cell);
   return cell;
 }

@@ -73,12 +73,6 @@ class IsoCells {
   const SampleBound& bound() const { return bound_; }
 
   IsoCell at(const Place& place) const;
-  /// At the corners of a cell, relative to the iso value: inside is >= 0.
-  std::array<double, kCellCorners> valuesAt(const Place& place) const {
-    std::array<double, kCellCorners> values = volume_->grid.cornersOf(place[0], place[1], place[2]);
-    for (double& value : values) value = inward_ * (value - iso_.value);
-    return values;
-  }
   Place placeOf(ElementId id) const;
   ElementId idOf(const IsoCell& cell, unsigned triangle) const;
   /// Above the numbers of all triangles.

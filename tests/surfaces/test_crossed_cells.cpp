@@ -68,12 +68,12 @@ TEST(CrossedCells, AreThoseWhoseCornersLieOnBothSides) {
     for (std::uint32_t z = first[2]; z < end[2]; ++z) {
       for (std::uint32_t y = first[1]; y < end[1]; ++y) {
         for (std::uint32_t x = first[0]; x < end[0]; ++x) {
-          const auto values = cells.valuesAt({x, y, z});
-          if (std::any_of(values.begin(), values.end(), [](double one) { return std::isnan(one); })) {
+          const IsoCell cell = cells.at({x, y, z});
+          if (std::any_of(cell.value.begin(), cell.value.end(), [](double one) { return std::isnan(one); })) {
             found.erase({x, y, z});
             continue;
           }
-          const bool crosses = cells.at({x, y, z}).triangles != nullptr;
+          const bool crosses = cell.triangles != nullptr;
           ASSERT_EQ(found.erase({x, y, z}), crosses ? 1U : 0U) << i;
           ++(crosses ? crossed : others);
         }
