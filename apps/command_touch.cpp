@@ -40,7 +40,7 @@ HandScript readScript(const std::string& file) {
   const std::vector<PathSample> path = readPath(file);
   for (const PathSample& sample : path) {
     const double time_s = sample.t - path.front().t;
-    script.samples.push_back({time_s, sample.position, true, sample.turned, sample.gripper_rad});
+    script.samples.push_back({time_s, sample.position, sample.turned, sample.gripper_rad});
   }
   return script;
 }

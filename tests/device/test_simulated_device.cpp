@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "cases.h"
-#include "device/hand_script.h"
+#include "device/person_script.h"
 #include "device/phantom_arm.h"
 #include "guard/realtime_guard.h"
 
@@ -365,17 +365,16 @@ TEST(SimulatedDevice, AHandThatLetsGoLeavesTheArmToItselfAndTakesItAgainWhereItI
 }
 
 TEST(PersonScript, DoesOneThingAfterTheOther) {
-  PersonScript person({0, 0.01, 0}, 0.5);
+  test::PersonScript person({0, 0.01, 0}, 0.5);
   person.press({0, -0.02, 0}, 0.1, 1).tap({0, -0.005, 0}, 0.05, 2).letGo(0.3);
-  const HandScript& script = person.script();
-  EXPECT_EQ(script.at(0.25), Vec3(0, 0.01, 0));
-  EXPECT_NEAR(script.at(0.6).y(), 0, 1e-12);
-  EXPECT_NEAR(script.at(1.2).y(), -0.01, 1e-12);
-  EXPECT_NEAR(script.at(1.9).y(), 0.01, 1e-12);
+  EXPECT_EQ(person.at(0.25), Vec3(0, 0.01, 0));
+  EXPECT_NEAR(person.at(0.6).y(), 0, 1e-12);
+  EXPECT_NEAR(person.at(1.2).y(), -0.01, 1e-12);
+  EXPECT_NEAR(person.at(1.9).y(), 0.01, 1e-12);
   EXPECT_NEAR(person.duration_s(), 0.5 + 1.4 + 2 * 0.201 + 0.3, 1e-9);
-  EXPECT_TRUE(script.holdsAt(2.2));
-  EXPECT_FALSE(script.holdsAt(person.duration_s() - 0.15));
-  EXPECT_TRUE(script.holdsAt(person.duration_s()));
+  EXPECT_TRUE(person.holdsAt(2.2));
+  EXPECT_FALSE(person.holdsAt(person.duration_s() - 0.15));
+  EXPECT_TRUE(person.holdsAt(person.duration_s()));
 }
 
 }  // namespace

@@ -142,8 +142,8 @@ TEST(SimulatedDevice, TurnsItsStylusAsTheHandWantsWhereItHasAWrist) {
 
 TEST(HandScript, TurnsTheShortWayRoundBetweenSamples) {
   HandScript script;
-  script.samples.push_back({0, Vec3::Zero(), true, about(0, Vec3::UnitZ()), 0.1});
-  script.samples.push_back({2, Vec3::Zero(), true, Eigen::Quaterniond(-about(1, Vec3::UnitZ()).coeffs()), 0.5});
+  script.samples.push_back({0, Vec3::Zero(), about(0, Vec3::UnitZ()), 0.1});
+  script.samples.push_back({2, Vec3::Zero(), Eigen::Quaterniond(-about(1, Vec3::UnitZ()).coeffs()), 0.5});
   EXPECT_LT(script.turnedAt(0.5)->angularDistance(about(0.25, Vec3::UnitZ())), 1e-12);
   EXPECT_LT(script.turnedAt(9)->angularDistance(about(1, Vec3::UnitZ())), 1e-12);
   EXPECT_NEAR(*script.gripperAt(0.5), 0.2, 1e-15);

@@ -5,7 +5,7 @@
 
 #include <deque>
 
-#include "device/hand_script.h"
+#include "device/person_script.h"
 #include "device/simulated_device.h"
 #include "proxy/effect_scenes.h"
 #include "touch/touch_step.h"
@@ -25,8 +25,8 @@ std::shared_ptr<const Snapshot> floorOf(Surface surface) {
 }
 
 // Presses, taps, strokes, lets go while pressing and in the open, takes the device again, and waits for the proxy.
-PersonScript person(double late_s) {
-  PersonScript script({0, 0.012, 0}, 0.3);
+test::PersonScript person(double late_s) {
+  test::PersonScript script({0, 0.012, 0}, 0.3);
   script.press({0, -0.03, 0}, 0.2, 0.6)
       .tap({0, -0.02, 0}, 0.25, 3)
       .stroke({0, -0.025, 0}, {0.04, 0, -0.02}, 0.15)
@@ -97,17 +97,17 @@ Felt feel(std::int64_t late_ns, Surface surface, bool firm, LedgerMode mode) {
   const ServoSettings settings = settingsFor(device.info(), late_ns, mode);
   LateLoop late(floorOf(surface), late_ns);
   TouchStep step;
-  const PersonScript script = person(1e-9 * static_cast<double>(late_ns));
+  const test::PersonScript script = person(1e-9 * static_cast<double>(late_ns));
   Felt felt;
   double given_J = 0, leak_J = 0;
   Vec3 last = Vec3::Zero(), force = Vec3::Zero();
   const std::int64_t end_ns = static_cast<std::int64_t>(1e9 * script.duration_s()) / kMs * kMs;
-  device.place(script.script().at(0), Vec3::Zero());
+  device.place(script.at(0), Vec3::Zero());
   for (std::int64_t t = 0; t < end_ns; t += kMs) {
     if (t == 5 * kMs) arm(step.servo());
     const double time_s = 1e-9 * static_cast<double>(t);
-    device.setHandGoal(script.script().at(time_s));
-    device.setHandHolds(script.script().holdsAt(time_s));
+    device.setHandGoal(script.at(time_s));
+    device.setHandHolds(script.holdsAt(time_s));
     const DeviceSample sample = device.read(t);
     if (t > 0) {
       given_J += force.dot(sample.position - last);
