@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/flag.h"
 #include "client/fault.h"
 
 namespace hl::client {
@@ -26,18 +27,6 @@ HLevent eventOf(const proto::Event& in) {
 double distanceOf(const proto::Vec3& a, const proto::Vec3& b) {
   return std::hypot(a.x() - b.x(), a.y() - b.y(), a.z() - b.z());
 }
-
-// Says that callbacks are running for as long as it lives.
-class Delivering {
- public:
-  explicit Delivering(bool& flag) : flag_(flag) { flag_ = true; }
-  Delivering(const Delivering&) = delete;
-  Delivering& operator=(const Delivering&) = delete;
-  ~Delivering() { flag_ = false; }
-
- private:
-  bool& flag_;
-};
 
 }  // namespace
 
@@ -69,7 +58,7 @@ void EventQueue::pushMotion(const proto::ClientState& state) {
 
 int EventQueue::deliver() {
   if (delivering_) throw Fault(HL_INVALID_OPERATION, "not in a callback of hlPoll");
-  const Delivering guard(delivering_);
+  const Flag delivering(delivering_);
   int delivered = 0;
   // Only as many as there are now: a callback that takes replies must not keep this going for ever.
   for (std::size_t left = events_.size(); left > 0 && !events_.empty(); --left) {
