@@ -24,6 +24,12 @@ inline constexpr std::size_t kEnergyCauses = 5;
 inline constexpr std::array<const char*, kEnergyCauses> kEnergyCauseNames{"shading", "stiffness", "texture", "moving",
                                                                           "late hand-over"};
 
+/// J, of a spring of stiffness K `spring_N_m` at the hand, reduced by the factor `stiffness` (0..1).
+/// `distance_squared_D`: squared length of the spring, m^2 at the hand. RT-safe.
+inline double springEnergy_J(double spring_N_m, double stiffness, double distance_squared_D) {
+  return 0.5 * spring_N_m * stiffness * distance_squared_D;
+}
+
 inline constexpr double kTankStart_J = 0.010;
 inline constexpr double kTankFull_J = 0.050;
 

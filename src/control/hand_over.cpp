@@ -8,7 +8,7 @@ namespace hl {
 namespace {
 
 double energy_J(double spring_N_m, const SpringEnd& end, const Vec3& finger_D) {
-  return 0.5 * spring_N_m * end.stiffness * (end.proxy_D - finger_D).squaredNorm();
+  return springEnergy_J(spring_N_m, end.stiffness, (end.proxy_D - finger_D).squaredNorm());
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ void handOver(HandOverState& state, LedgerMode mode, double spring_N_m, const Sp
 }
 
 void refillFromFriction(HandOverState& state, double friction_N, const Vec3& before_D, const Vec3& finger_D) {
-  state.ledger.tank_J = std::min(kTankFull_J, state.ledger.tank_J + friction_N * (finger_D - before_D).norm());
+  state.ledger.refill(friction_N * (finger_D - before_D).norm());
 }
 
 }  // namespace hl

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/ledger.h"
 #include "proxy/proxy_state.h"
 #include "proxy/tolerances.h"
 
@@ -14,13 +15,7 @@ inline double feltSpring_N_m(const ProxySettings& settings, const ProxyState& st
   return std::max(settings.spring_N_m, accuracy::kMinSpring_N_m) * std::max(state.stiffness, accuracy::kMinStiffness);
 }
 
-/// J, for a spring of stiffness K `spring_N_m` at the hand, reduced by the factor `stiffness` (0..1).
-/// `distance_squared_D`: squared length of the spring, m^2 at the hand.
-inline double springEnergy_J(double spring_N_m, double stiffness, double distance_squared_D) {
-  return 0.5 * spring_N_m * stiffness * distance_squared_D;
-}
-
-/// The same of the proxy's spring, for a finger at this place.
+/// J, of the proxy's spring, for a finger at this place.
 inline double springEnergy_J(const ProxySettings& settings, const ProxyState& state, const Vec3& finger) {
   const Vec3 gap_D = (state.anchor() - finger) / settings.world_per_device;
   return springEnergy_J(settings.spring_N_m, state.stiffness, gap_D.squaredNorm());
