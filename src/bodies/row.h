@@ -1,7 +1,9 @@
 // Rows: the unknown velocities of a step (nodes), and the contacts between them (rows).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "base/vec.h"
 #include "bodies/contact_memory.h"
@@ -67,6 +69,21 @@ enum class Accuracy : std::uint8_t { kRough, kExact };
 
 /// N s, on a.
 inline Vec3 impulseOf(const Row& row) { return row.pressed * row.normal + row.dragged; }
+
+/// m/s: the least velocity along the normal that the row allows. RT-safe.
+inline double demandOf(const Row& row, double period_s) {
+  return std::max(row.least_velocity, -std::max(row.gap, 0.0) / period_s);
+}
+/// Velocity at the row's point, a's relative to b's. RT-safe.
+inline Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes) {
+  const Vec3 velocity = nodes[static_cast<std::size_t>(row.a)].velocityAt(row.arm_a);
+  return velocity - (row.b == Row::kFixed ? row.carried : nodes[static_cast<std::size_t>(row.b)].velocityAt(row.arm_b));
+}
+/// Applies an impulse on a, and its opposite on b. RT-safe.
+inline void applyImpulse(const Row& row, std::span<Node> nodes, const Vec3& impulse) {
+  nodes[static_cast<std::size_t>(row.a)].push(impulse, row.arm_a);
+  if (row.b != Row::kFixed) nodes[static_cast<std::size_t>(row.b)].push(-impulse, row.arm_b);
+}
 
 /// Number of the node of a body; Row::kFixed: there is no such body. RT-safe.
 inline int nodeOf(const World& world, std::uint64_t key) {

@@ -32,20 +32,6 @@ double largestAcross(const Mat3& mobility, const Vec3& normal) {
 
 Vec3 acrossOf(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
 
-inline double demand(const Row& row, double period_s) {
-  return std::max(row.least_velocity, -std::max(row.gap, 0.0) / period_s);
-}
-
-inline Vec3 velocityOf(const Row& row, std::span<const Node> nodes) {
-  const Vec3 velocity = nodes[static_cast<std::size_t>(row.a)].velocityAt(row.arm_a);
-  return velocity - (row.b == Row::kFixed ? row.carried : nodes[static_cast<std::size_t>(row.b)].velocityAt(row.arm_b));
-}
-
-inline void push(const Row& row, std::span<Node> nodes, const Vec3& impulse) {
-  nodes[static_cast<std::size_t>(row.a)].push(impulse, row.arm_a);
-  if (row.b != Row::kFixed) nodes[static_cast<std::size_t>(row.b)].push(-impulse, row.arm_b);
-}
-
 // Goes on along the last direction of the search by `part` of it, |g|^2 over the last |g|^2: what that does to the
 // nodes is done already. Where the changes grow, the search begins anew.
 inline void searchOn(Row& row, double part) {
@@ -62,7 +48,7 @@ inline void searchOn(Row& row, double part) {
 
 // Sets the change of the row's impulse.
 inline void solveRow(Row& row, std::span<Node> nodes) {
-  Vec3 velocity = velocityOf(row, nodes);
+  Vec3 velocity = relativeVelocity(row, nodes);
   const double pressed = std::max(0.0, row.pressed + row.normal_step * (row.demand - row.normal.dot(velocity)));
   const double more = pressed - row.pressed;
   row.pressed = pressed;
@@ -76,16 +62,10 @@ inline void solveRow(Row& row, std::span<Node> nodes) {
     row.change += dragged - row.dragged;
     row.dragged = dragged;
   }
-  push(row, nodes, row.change);
+  applyImpulse(row, nodes, row.change);
 }
 
 }  // namespace
-
-double demandOf(const Row& row, double period_s) { return demand(row, period_s); }
-
-Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes) { return velocityOf(row, nodes); }
-
-void applyImpulse(const Row& row, std::span<Node> nodes, const Vec3& impulse) { push(row, nodes, impulse); }
 
 void prepareRow(Row& row, std::span<Node> nodes) {
   const Mat3 k = mobility(row, nodes);

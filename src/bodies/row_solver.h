@@ -24,12 +24,6 @@ struct RowSolverLimits {
 
 /// Sets the steps of the row and applies the impulses with which it begins. RT-safe.
 void prepareRow(Row& row, std::span<Node> nodes);
-/// m/s: the least velocity along the normal that the row allows. RT-safe.
-double demandOf(const Row& row, double period_s);
-/// Velocity at the row's point, a's relative to b's. RT-safe.
-Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes);
-/// Applies an impulse on a, and its opposite on b. RT-safe.
-void applyImpulse(const Row& row, std::span<Node> nodes, const Vec3& impulse);
 
 /// By one thread at a time.
 class RowSolver {
