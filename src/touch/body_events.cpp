@@ -21,7 +21,7 @@ void BodyEvents::follow(const Snapshot& scene, const BodyWorld& bodies) {
     Seen seen;
     seen.asleep = bodies.state().bodies[i++].island != 0;
     if (known != before_.end() && known->object.key == instance.key) seen = *known;
-    seen.object = {instance.key, instance.session, instance.object, instance.name};
+    seen.object = nameOf(instance);
     seen_.push(seen);
   }
   scene_ = scene.identity;

@@ -8,12 +8,6 @@
 
 namespace hl {
 
-namespace {
-
-ObjectName nameOf(const Instance& instance) { return {instance.key, instance.session, instance.object, instance.name}; }
-
-}  // namespace
-
 void ProxyLoop::follow(const ProxyCommands& commands, const SpringOfServo& spring) {
   workspace_ = commands.workspace;
   settings_.radius = commands.radius_W;

@@ -9,6 +9,7 @@
 #include "base/spsc_ring.h"
 #include "base/vec.h"
 #include "proxy/solver.h"
+#include "scene/snapshot.h"
 
 namespace hl {
 
@@ -17,6 +18,9 @@ struct ObjectName {
   std::uint64_t key = 0;
   std::uint32_t session = 0, object = 0, name = 0;
 };
+inline ObjectName nameOf(const Instance& instance) {
+  return {instance.key, instance.session, instance.object, instance.name};
+}
 
 /// The snap that holds the proxy.
 struct HoldingSnap {
