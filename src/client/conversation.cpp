@@ -8,12 +8,12 @@
 #include "base/duration.h"
 #include "base/error.h"
 #include "client/open_link.h"
+#include "wire/protocol_version.h"
 
 namespace hl::client {
 
 namespace {
 
-constexpr std::uint32_t kProtocolVersion = 1;
 // While a frame waits here for the network nobody wakes finish(): it looks again so often.
 constexpr std::int64_t kLookAgain_ns = 2'000'000;
 constexpr std::int64_t kLongestWait_ns = 1'000'000'000;

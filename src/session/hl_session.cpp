@@ -12,12 +12,12 @@
 #include "session/message_forms.h"
 #include "session/state_messages.h"
 #include "session/stylus_messages.h"
+#include "wire/protocol_version.h"
 
 namespace hl {
 
 namespace {
 
-constexpr std::uint32_t kProtocolVersion = 1;
 constexpr std::size_t kMaxWaitingFrames = 64;  // that are not built yet
 constexpr std::size_t kMaxRefusedUploads = 1000;
 constexpr std::size_t kMaxNameLength = 100;
