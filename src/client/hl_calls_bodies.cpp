@@ -11,6 +11,8 @@
 #include "client/call.h"
 #include "client/queries.h"
 #include "client/vec_messages.h"
+#include "geometry/primitive.h"
+#include "scene/body_spec.h"
 
 using hl::client::call;
 using hl::client::callOr;
@@ -19,12 +21,9 @@ using hl::client::requireFinite;
 using hl::client::requirePointer;
 using hl::client::requireWithin;
 using hl::client::When;
+namespace limits = hl::body_limits;
 
 namespace {
-
-// As servers take them.
-constexpr double kMaxSpeed_m_s = 100, kMaxSpin_rad_s = 1000, kMaxGravity_m_s2 = 1000, kMaxImpulse_N_s = 1e6,
-                 kFarthest_m = 1e9, kLongest_s = 10;
 
 constexpr std::string_view kVelocity = "each coordinate of the velocity", kSpin = "each coordinate of the spin",
                            kPlace = "each coordinate of the place";
@@ -46,19 +45,18 @@ void setBody(const char* function, Fill fill) {
 }
 
 void setNumber(hl::proto::Body& body, HLenum parameter, double value) {
-  constexpr double kLightest_kg = 1e-9, kHeaviest_kg = 1e9, kDensest_kg_m3 = 1e6, kRoughest = 1e3;
   switch (parameter) {
     case HL_BODY_MASS:
-      requireWithin("HL_BODY_MASS", value, kLightest_kg, kHeaviest_kg);
+      requireWithin("HL_BODY_MASS", value, limits::kMinMass_kg, limits::kMaxMass_kg);
       return body.set_mass_kg(value);
     case HL_BODY_DENSITY:
-      requireWithin("HL_BODY_DENSITY", value, 1 / kDensest_kg_m3, kDensest_kg_m3);
+      requireWithin("HL_BODY_DENSITY", value, limits::kMinDensity_kg_m3, limits::kMaxDensity_kg_m3);
       return body.set_density_kg_m3(value);
     case HL_BODY_STATIC_FRICTION:
-      requireWithin("HL_BODY_STATIC_FRICTION", value, 0, kRoughest);
+      requireWithin("HL_BODY_STATIC_FRICTION", value, 0, limits::kMaxFriction);
       return body.set_static_friction(value);
     case HL_BODY_DYNAMIC_FRICTION:
-      requireWithin("HL_BODY_DYNAMIC_FRICTION", value, 0, kRoughest);
+      requireWithin("HL_BODY_DYNAMIC_FRICTION", value, 0, limits::kMaxFriction);
       return body.set_dynamic_friction(value);
     case HL_BODY_RESTITUTION:
       requireWithin("HL_BODY_RESTITUTION", value, 0, 1);
@@ -142,15 +140,16 @@ void hlBodyi(HLenum parameter, HLint value) {
 void hlBody3d(HLenum parameter, HLdouble x, HLdouble y, HLdouble z) {
   setBody(__func__, [&](hl::proto::Body& body) {
     if (parameter == HL_BODY_VELOCITY)
-      return setWithin(kVelocity, *body.mutable_velocity_m_s(), x, y, z, kMaxSpeed_m_s);
-    if (parameter == HL_BODY_SPIN) return setWithin(kSpin, *body.mutable_spin_rad_s(), x, y, z, kMaxSpin_rad_s);
+      return setWithin(kVelocity, *body.mutable_velocity_m_s(), x, y, z, limits::kMaxSpeed_m_s);
+    if (parameter == HL_BODY_SPIN) return setWithin(kSpin, *body.mutable_spin_rad_s(), x, y, z, limits::kMaxSpin_rad_s);
     throw Fault(HL_INVALID_ENUM, "the parameter must be HL_BODY_VELOCITY or HL_BODY_SPIN");
   });
 }
 
 void hlGravity3d(HLdouble x, HLdouble y, HLdouble z) {
   call(__func__, When::kNotInDefinition, [&](HLcontext& context) {
-    for (const double value : {x, y, z}) requireWithin("each coordinate", value, -kMaxGravity_m_s2, kMaxGravity_m_s2);
+    for (const double value : {x, y, z})
+      requireWithin("each coordinate", value, -limits::kMaxGravity_m_s2, limits::kMaxGravity_m_s2);
     context.frame.gravity_m_s2 = {x, y, z};
   });
 }
@@ -159,24 +158,24 @@ void hlBodyImpulsed(HLuint object, HLdouble ix, HLdouble iy, HLdouble iz, HLdoub
                     HLdouble seconds) {
   act(__func__, object, [&](hl::proto::BodyCommand& command) {
     hl::proto::BodyPush& push = *command.mutable_push();
-    setWithin("each coordinate of the impulse", *push.mutable_impulse_n_s(), ix, iy, iz, kMaxImpulse_N_s);
-    setWithin(kPlace, *push.mutable_point(), px, py, pz, kFarthest_m);
-    requireWithin("the time", seconds, 0, kLongest_s);
+    setWithin("each coordinate of the impulse", *push.mutable_impulse_n_s(), ix, iy, iz, limits::kMaxImpulse_N_s);
+    setWithin(kPlace, *push.mutable_point(), px, py, pz, hl::kFarthest_m);
+    requireWithin("the time", seconds, 0, limits::kMaxPush_s);
     push.set_duration_s(seconds);
   });
 }
 
 void hlBodyVelocityd(HLuint object, HLdouble vx, HLdouble vy, HLdouble vz, HLdouble wx, HLdouble wy, HLdouble wz) {
   act(__func__, object, [&](hl::proto::BodyCommand& command) {
-    setWithin(kVelocity, *command.mutable_velocity()->mutable_velocity_m_s(), vx, vy, vz, kMaxSpeed_m_s);
-    setWithin(kSpin, *command.mutable_velocity()->mutable_spin_rad_s(), wx, wy, wz, kMaxSpin_rad_s);
+    setWithin(kVelocity, *command.mutable_velocity()->mutable_velocity_m_s(), vx, vy, vz, limits::kMaxSpeed_m_s);
+    setWithin(kSpin, *command.mutable_velocity()->mutable_spin_rad_s(), wx, wy, wz, limits::kMaxSpin_rad_s);
   });
 }
 
 void hlBodyPlaced(HLuint object, HLdouble x, HLdouble y, HLdouble z, HLdouble qx, HLdouble qy, HLdouble qz,
                   HLdouble qw) {
   act(__func__, object, [&](hl::proto::BodyCommand& command) {
-    setWithin(kPlace, *command.mutable_place()->mutable_position(), x, y, z, kFarthest_m);
+    setWithin(kPlace, *command.mutable_place()->mutable_position(), x, y, z, hl::kFarthest_m);
     requireFinite(qx, qy, qz, qw);
     const double length = std::hypot(std::hypot(qx, qy), std::hypot(qz, qw));
     if (!(length > 0) || !std::isfinite(length)) throw Fault(HL_INVALID_VALUE, "the quaternion must not be 0");

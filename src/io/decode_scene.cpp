@@ -198,27 +198,27 @@ SurfaceChange SceneDecoder::surface(const proto::Material& in, const std::string
 }
 
 BodySpec SceneDecoder::body(const proto::Body& in, const std::string& where) const {
-  constexpr double kMaxMass_kg = 1e9, kMinMass_kg = 1e-9, kMaxDensity_kg_m3 = 1e6, kMaxFriction = 1e3;
-  constexpr double kMaxSpeed_m_s = 100, kMaxSpin_rad_s = 1000;
   BodySpec spec;
   spec.fixed = in.fixed();
-  if (in.has_mass_kg()) spec.mass_kg = checked(in.mass_kg(), kMinMass_kg, kMaxMass_kg, where + ".massKg");
+  if (in.has_mass_kg())
+    spec.mass_kg = checked(in.mass_kg(), body_limits::kMinMass_kg, body_limits::kMaxMass_kg, where + ".massKg");
   if (in.has_density_kg_m3())
-    spec.density_kg_m3 = checked(in.density_kg_m3(), 1 / kMaxDensity_kg_m3, kMaxDensity_kg_m3, where + ".densityKgM3");
+    spec.density_kg_m3 = checked(in.density_kg_m3(), body_limits::kMinDensity_kg_m3, body_limits::kMaxDensity_kg_m3,
+                                 where + ".densityKgM3");
   if (!proto::BodyShape_IsValid(in.shape())) fail(where + ".shape", where + ".shape is none that HL knows");
   spec.shape = static_cast<BodyShape>(in.shape());
   BodySurface& surface = spec.surface;
   if (in.has_static_friction())
-    surface.static_friction = checked(in.static_friction(), 0, kMaxFriction, where + ".staticFriction");
+    surface.static_friction = checked(in.static_friction(), 0, body_limits::kMaxFriction, where + ".staticFriction");
   if (in.has_dynamic_friction())
-    surface.dynamic_friction = checked(in.dynamic_friction(), 0, kMaxFriction, where + ".dynamicFriction");
+    surface.dynamic_friction = checked(in.dynamic_friction(), 0, body_limits::kMaxFriction, where + ".dynamicFriction");
   if (!in.has_static_friction() && in.has_dynamic_friction()) surface.static_friction = surface.dynamic_friction;
   if (!in.has_dynamic_friction() && in.has_static_friction()) surface.dynamic_friction = surface.static_friction;
   if (surface.static_friction < surface.dynamic_friction)
     fail(where + ".staticFriction", where + ".staticFriction must not be less than dynamicFriction");
   if (in.has_restitution()) surface.restitution = checked(in.restitution(), 0, 1, where + ".restitution");
-  spec.velocity_m_s = checked(in.velocity_m_s(), kMaxSpeed_m_s, where + ".velocityMS");
-  spec.spin_rad_s = checked(in.spin_rad_s(), kMaxSpin_rad_s, where + ".spinRadS");
+  spec.velocity_m_s = checked(in.velocity_m_s(), body_limits::kMaxSpeed_m_s, where + ".velocityMS");
+  spec.spin_rad_s = checked(in.spin_rad_s(), body_limits::kMaxSpin_rad_s, where + ".spinRadS");
   return spec;
 }
 

@@ -36,7 +36,6 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{64} << 20;
 constexpr std::size_t kMaxFileTexels = std::size_t{8192} * 8192;
 constexpr int kMaxObjects = 60'000;  // materials are counted in 16 bits
-constexpr double kMaxGravity_m_s2 = 1000;
 constexpr const char* kAlone = "names another file, and this one comes alone";
 
 std::string readText(const std::string& path) {
@@ -439,7 +438,7 @@ SceneModel SceneFile::build() {
   for (int i = 0; i < scene_.textures_size(); ++i) addTexture(whole, scene_.textures(i), pathOf("textures", i));
   if (scene_.objects_size() == 0) fail("objects", "there are no objects in it");
   if (scene_.has_gravity_m_s2())
-    scene.mechanics.gravity_m_s2 = decoder_.checked(scene_.gravity_m_s2(), kMaxGravity_m_s2, "gravityMS2");
+    scene.mechanics.gravity_m_s2 = decoder_.checked(scene_.gravity_m_s2(), body_limits::kMaxGravity_m_s2, "gravityMS2");
   std::size_t primitives = 0;
   for (int i = 0; i < scene_.objects_size(); ++i) {
     const proto::SceneObject& object = scene_.objects(i);

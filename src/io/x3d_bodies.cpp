@@ -16,8 +16,6 @@ namespace hl {
 
 namespace {
 
-constexpr double kMaxSlip = 1e3;
-
 bool isCollidable(const X3dNode& node) { return isX3d(node, {"CollidableShape", "CollidableOffset"}); }
 
 /// A shape in the frame of what it is a piece of.
@@ -83,7 +81,8 @@ void BodiesOfX3d::addSurface(const X3dNode& collection) {
   const X3dFields fields = fieldsOf(collection);
   BodySurface surface;
   surface.restitution = fields.number("bounce", 0, 0, 1);
-  const Vec2 friction = fields.pair("frictionCoefficients", Vec2::Constant(surface.dynamic_friction), 0, kMaxSlip);
+  const Vec2 friction =
+      fields.pair("frictionCoefficients", Vec2::Constant(surface.dynamic_friction), 0, body_limits::kMaxFriction);
   surface.static_friction = surface.dynamic_friction = friction.x();
   if (friction.x() != friction.y()) fields.warn("the first of its frictionCoefficients holds in all directions");
   for (const char* other : {"slipFactors", "surfaceSpeed"}) {
@@ -201,16 +200,15 @@ void BodiesOfX3d::warnOfWhatIsLeftOut(const X3dNode& node) {
 }
 
 BodySpec BodiesOfX3d::specOf(const X3dNode& node, bool enabled) {
-  constexpr double kMin_kg = 1e-9, kMax_kg = 1e9, kFastest_m_s = 100, kFastest_rad_s = 1000;  // of scene files
   const X3dFields fields = fieldsOf(node);
   BodySpec spec;
-  spec.mass_kg = std::max(kMin_kg, fields.number("mass", 1, 0, kMax_kg));
-  spec.velocity_m_s = fields.vec("linearVelocity", Vec3::Zero(), kFastest_m_s);
-  spec.spin_rad_s = fields.vec("angularVelocity", Vec3::Zero(), kFastest_rad_s);
+  spec.mass_kg = std::max(body_limits::kMinMass_kg, fields.number("mass", 1, 0, body_limits::kMaxMass_kg));
+  spec.velocity_m_s = fields.vec("linearVelocity", Vec3::Zero(), body_limits::kMaxSpeed_m_s);
+  spec.spin_rad_s = fields.vec("angularVelocity", Vec3::Zero(), body_limits::kMaxSpin_rad_s);
   spec.surface = surfaceOf(node.second);
   spec.fixed = fields.flag("fixed", false);
   if (spec.fixed) return spec;
-  const bool weightless = *spec.mass_kg <= kMin_kg;
+  const bool weightless = *spec.mass_kg <= body_limits::kMinMass_kg;
   spec.fixed = weightless || !(enabled && fields.flag("enabled", true));
   if (spec.fixed) fields.warn(std::string("stays where it is: it ") + (weightless ? "has no mass" : "is not enabled"));
   return spec;
@@ -282,9 +280,8 @@ void BodiesOfX3d::addBody(const X3dNode& node, bool enabled) {
 }
 
 void BodiesOfX3d::addCollection(const X3dNode& collection) {
-  constexpr double kMaxGravity = 1000;
   const Vec3 kDefault(0, -9.8, 0);  // X3D's
-  const Vec3 gravity = fieldsOf(collection).vec("gravity", kDefault, kMaxGravity);
+  const Vec3 gravity = fieldsOf(collection).vec("gravity", kDefault, body_limits::kMaxGravity_m_s2);
   if (!has_gravity_) scene_.mechanics.gravity_m_s2 = gravity;
   if (has_gravity_ && gravity != scene_.mechanics.gravity_m_s2)
     warn(collection, "its gravity is left out: there is one for all");

@@ -36,6 +36,16 @@ inline constexpr std::array<const char*, 6> kBodyShapeNames{"hull", "box", "ball
 /// No scene has more that move, each counted by its parts: what a step costs is bounded.
 inline constexpr std::size_t kMaxBodies = 1000;
 
+/// What a file or a client may say of bodies and do to them.
+namespace body_limits {
+inline constexpr double kMinMass_kg = 1e-9, kMaxMass_kg = 1e9;
+inline constexpr double kMinDensity_kg_m3 = 1e-6, kMaxDensity_kg_m3 = 1e6;
+inline constexpr double kMaxFriction = 1e3;
+inline constexpr double kMaxImpulse_N_s = 1e6, kMaxPush_s = 10;
+/// Each coordinate.
+inline constexpr double kMaxSpeed_m_s = 100, kMaxSpin_rad_s = 1000, kMaxGravity_m_s2 = 1000;
+}  // namespace body_limits
+
 struct BodySpec {
   bool fixed = false;             ///< it does not move, and only its surface counts
   std::optional<double> mass_kg;  ///< > 0; absent: of the volume of its shape and the density

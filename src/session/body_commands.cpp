@@ -11,9 +11,6 @@ namespace hl {
 
 namespace {
 
-constexpr double kMaxImpulse_N_s = 1e6, kMaxDuration_s = 10, kMaxSpeed_m_s = 100, kMaxSpin_rad_s = 1000,
-                 kMaxCoordinate_m = 1e9;
-
 const SceneDecoder& decoder() {
   static const SceneDecoder decoder([](const std::string&, const std::string& message) { throw Error(message); });
   return decoder;
@@ -34,18 +31,19 @@ BodyCommand toBodyCommand(const proto::BodyCommand& in) {
   };
   switch (in.what_case()) {
     case proto::BodyCommand::kPush:
-      out.impulse_N_s = vec(in.push().impulse_n_s(), kMaxImpulse_N_s, "push.impulse_N_s");
-      if (in.push().has_point()) out.point_m = vec(in.push().point(), kMaxCoordinate_m, "push.point");
-      out.duration_s = decoder().checked(in.push().duration_s(), 0, kMaxDuration_s, "body_command.push.duration_s");
+      out.impulse_N_s = vec(in.push().impulse_n_s(), body_limits::kMaxImpulse_N_s, "push.impulse_N_s");
+      if (in.push().has_point()) out.point_m = vec(in.push().point(), kFarthest_m, "push.point");
+      out.duration_s =
+          decoder().checked(in.push().duration_s(), 0, body_limits::kMaxPush_s, "body_command.push.duration_s");
       return out;
     case proto::BodyCommand::kVelocity:
       if (in.velocity().has_velocity_m_s())
-        out.velocity_m_s = vec(in.velocity().velocity_m_s(), kMaxSpeed_m_s, "velocity.velocity_m_s");
+        out.velocity_m_s = vec(in.velocity().velocity_m_s(), body_limits::kMaxSpeed_m_s, "velocity.velocity_m_s");
       if (in.velocity().has_spin_rad_s())
-        out.spin_rad_s = vec(in.velocity().spin_rad_s(), kMaxSpin_rad_s, "velocity.spin_rad_s");
+        out.spin_rad_s = vec(in.velocity().spin_rad_s(), body_limits::kMaxSpin_rad_s, "velocity.spin_rad_s");
       return out;
     case proto::BodyCommand::kPlace:
-      if (in.place().has_position()) out.position_m = vec(in.place().position(), kMaxCoordinate_m, "place.position");
+      if (in.place().has_position()) out.position_m = vec(in.place().position(), kFarthest_m, "place.position");
       if (in.place().has_rotation()) out.rotation = rotationOf(in.place().rotation());
       return out;
     case proto::BodyCommand::WHAT_NOT_SET:

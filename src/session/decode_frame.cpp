@@ -249,9 +249,8 @@ DecodedFrame FrameDecoder::run() {
   const int listed = frame_.deleted_textures_size() + frame_.deleted_objects_size() + frame_.compliances_size();
   result_.memory.take(kListed_bytes * static_cast<std::uint64_t>(listed));
   if (frame_.has_interval_s() && !(frame_.interval_s() >= 0)) throw Error("interval_s must not be below 0");
-  constexpr double kMaxGravity_m_s2 = 1000;
   if (frame_.has_gravity_m_s2())
-    result_.gravity_m_s2 = decoder_.checked(frame_.gravity_m_s2(), kMaxGravity_m_s2, "gravity_m_s2");
+    result_.gravity_m_s2 = decoder_.checked(frame_.gravity_m_s2(), body_limits::kMaxGravity_m_s2, "gravity_m_s2");
   addTextures();
   addObjects();
   warnOfCalls();
