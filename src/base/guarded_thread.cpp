@@ -73,7 +73,7 @@ bool attempt(FunctionRef<void()> work) noexcept {
   } catch (const std::exception& error) {
     fail(error.what());
   } catch (...) {
-    fail("something that says nothing of itself");
+    fail("an exception without a message");
   }
   return false;
 }

@@ -53,7 +53,7 @@ TEST(GuardedThread, WhatAPieceOfWorkThrowsIsCountedReportedAndOver) {
   }).join();
   setReportFailure(nullptr);
   EXPECT_EQ(failuresOf("test pieces").count, 2u);
-  EXPECT_EQ(reported, "test pieces: something that says nothing of itself");
+  EXPECT_EQ(reported, "test pieces: an exception without a message");
 }
 
 TEST(GuardedThread, ABodyThatThrowsRunsOnceMore) {
