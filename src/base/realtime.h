@@ -31,7 +31,7 @@ void lockProcessMemory();
 /// need, however seldom it needs them. lockProcessMemory() does so too. Setup only, some milliseconds.
 void touchPrograms();
 
-/// What the stack of a loop has ready. A tick and a servo step use up to 0.2 MB (tests/server/test_stack_use.cpp).
+/// What the stack of a loop has ready. A tick and a servo step use up to 0.2 MB (tests/touch/test_stack_use.cpp).
 inline constexpr std::size_t kTouchedStack_bytes = std::size_t{512} * 1024;
 
 /// Asks for SCHED_FIFO at `priority` (1..99) and `core` (-1: any) for the calling thread, and touches its stack, so

@@ -15,7 +15,8 @@ namespace {
 constexpr int kRounds = 8;
 // Updates of a row by a sweep, that a look at a meeting costs as much as.
 constexpr int kUpdatesOfMeeting = 12;
-// How often a step may wake islands and begin anew; one that is hit after that is hard as a wall for this step.
+// How often a step may wake islands and begin anew. One that is hit after that stays asleep in this step: it does not
+// give way.
 constexpr int kRestarts = 4;
 // How often bounces are halved that would add energy; the last time there is none.
 constexpr int kWeakerTimes = 4;

@@ -23,14 +23,14 @@ void setCurrentContext(HLcontext* context);
 const char* whyNoContext() noexcept;
 /// Errors of calls without a context.
 ErrorState& threadErrors() noexcept;
-/// Those of the current context, else the thread's.
+/// Errors of the current context; where there is none, those of calls without a context.
 ErrorState& currentErrors() noexcept;
 
 enum class When {
   kAlways,           ///< also between hlBegin and hlEnd
-  kBetween,          ///< only there
-  kOutside,          ///< only outside of that: most calls
-  kNotInDefinition,  ///< outside, and not between hlNewObject and hlEndObject
+  kBetween,          ///< only between hlBegin and hlEnd
+  kOutside,          ///< only outside of hlBegin and hlEnd: most calls
+  kNotInDefinition,  ///< only outside of hlBegin and hlEnd, and of hlNewObject and hlEndObject
 };
 
 /// Throws Fault HL_INVALID_OPERATION.

@@ -32,7 +32,7 @@ Number numberOf(const std::string& option, const std::string& text, Number least
 
 bool flagOf(const std::string& option, const std::string& text) { return numberOf<int>(option, text, 0, 1) == 1; }
 
-constexpr double kMaxRate_Hz = 1e6;  // no server sends more: anything above is a slip of the pen
+constexpr double kMaxRate_Hz = 1e6;  // no server sends more: what is above was not meant
 constexpr double kLongestTimeout_s = 1e6;
 
 // The options by name; each writes its value into the URL.

@@ -10,8 +10,8 @@ namespace {
 // gives F v T, less than E. Without energy it ends as softly as over 0.5 mm or 5 ms, and a step of the encoders, 30 um
 // or so, changes it by a few hundredths.
 constexpr double kSoft_m = 0.5e-3, kSoft_s = 5e-3;
-// Below a full tank the hand drags so much at the most: what that takes fills it. As a hand that moves to and fro in
-// the open would else never be led by the robot again.
+// Below a full tank the hand drags so much at the most, and what that takes fills it: otherwise the robot could never
+// again lead a hand that moves to and fro in the open.
 constexpr double kDrag_Ns_m = 5;
 
 void followDeadline(RemotePort& port, const RemoteInput& input, const RemoteStep& step) {

@@ -1,5 +1,5 @@
 // Watchdog: notices from outside when the servo stands still. It counts its own looks, not the clock's time: when the
-// whole machine has paused, watchdog and servo alike, nobody is to blame.
+// whole machine has paused, watchdog and servo alike, that is no stall.
 #pragma once
 
 #include <cstdint>

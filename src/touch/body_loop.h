@@ -16,18 +16,20 @@ class BodyLoop {
  public:
   /// Whether what clients do waits for the next step().
   bool waiting() const { return !to_do_.empty(); }
-  /// Is done to the bodies in the next step(). What there is no room for is dropped: one call between two steps.
+  /// Keeps what is to be done to the bodies in the next step(). What there is no room for is dropped: one call between
+  /// two steps.
   void act(const BodyCommands& commands) {
     for (const BodyCommand& command : commands) to_do_.push(command);
   }
-  /// The same, in the step of another: what was to be done here counts as done.
+  /// Takes what was kept for the next step(), for another loop whose step does it to the bodies; done() gives it
+  /// too.
   const BodyCommands& takeCommands();
-  /// What was done to them in the last step.
+  /// What was done to the bodies in the last step.
   const BodyCommands& done() const { return done_; }
-  /// `bodies`: of `scene`; null: it has none.
+  /// `bodies`: those of `scene`; null: it has none.
   void step(const Snapshot& scene, BodyWorld* bodies, std::int64_t now_ns, double period_s,
             std::span<const HandAtBodies> hands);
-  /// In the place of a step.
+  /// In place of step(): nothing was done to the bodies.
   void skip() { done_.clear(); }
   bool pop(BodyEvent& event) { return events_.pop(event); }
 

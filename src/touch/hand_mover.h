@@ -20,8 +20,8 @@
 
 namespace hl {
 
-/// Constructed, started, stopped and destroyed by one thread. The rest: any thread; it changes nothing when a person
-/// holds the device.
+/// Constructed, started, stopped and destroyed by one thread. The other functions: any thread; they change nothing
+/// when a person holds the device.
 class HandMover {
  public:
   /// Gives the scene that is shown. Any thread.
@@ -44,6 +44,7 @@ class HandMover {
   /// free(). Waits until it is there, `most_s` at most: the scene may hold it. Whether it is there, or there is no
   /// hand.
   bool moveAside(double top_D, double most_s);
+  /// Ends moveAside(). Goals that were set meanwhile are dropped.
   void free();
   void press(std::uint32_t buttons);
   void turn(const Eigen::Quaterniond& turned_W);  ///< of any length but 0; else it changes nothing
@@ -84,9 +85,9 @@ class HandMover {
   const SceneNow scene_;
   std::int64_t begin_ns_ = 0, pressed_ns_ = 0;
   std::atomic<bool> exploring_, firm_;
-  Exploration exploration_;  // of the thread
-  StillScene still_;         // too
-  std::mutex mutex_;         // of the next; the real-time loops never see it
+  Exploration exploration_;  // of the thread that moves the hand
+  StillScene still_;         // of the thread that moves the hand
+  std::mutex mutex_;         // of commands_; the real-time loops never lock it
   Commands commands_;
   std::atomic<double> aside_top_D_{kFree};  // m; kFree: it is where it is commanded to be
   std::atomic<bool> aside_{false};          // it has come there

@@ -46,7 +46,7 @@ class SnapshotSlot {
     ready.push_back(std::move(scene));
     return ready;
   }
-  /// One that the reader has not taken by then it never will.
+  /// Frees the scene published before, if the reader has not taken it yet: it never sees that scene.
   void publish(Ready next) noexcept {
     scenes_.splice(scenes_.end(), next);
     const Scene* const untaken = waiting_.exchange(&scenes_.back(), std::memory_order_acq_rel);

@@ -32,8 +32,9 @@ class Ticker {
   /// the other loop.
   void done(const TickRequest& request, const ProxyStep* step, std::int64_t begin_ns, std::int64_t work_ns);
 
-  bool popEvent(TouchEvent& event) { return loop_.popEvent(event); }  ///< one thread only
-  bool popEvent(BodyEvent& event) { return loop_.popEvent(event); }   ///< the same
+  /// One thread only, the same for both kinds.
+  bool popEvent(TouchEvent& event) { return loop_.popEvent(event); }
+  bool popEvent(BodyEvent& event) { return loop_.popEvent(event); }
   std::uint64_t ticks() const { return ticks_.load(); }
   std::uint64_t ticksInServoSteps() const { return ticks_in_servo_steps_.load(); }
   std::int64_t last_ns() const { return last_ns_.load(std::memory_order_acquire); }  ///< when the last one began
