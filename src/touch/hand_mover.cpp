@@ -81,7 +81,7 @@ void HandMover::follow(const Commands& commands) {
     exploring_ = *commands.explore;
     exploration_.begin();
   }
-  if (aside_top_D_ >= 0) return holdAside();
+  if (aside_.top_D >= 0) return holdAside();
   const Workspace workspace = live_.workspace();
   if (commands.goal_W) {
     exploring_ = false;
@@ -154,12 +154,12 @@ void HandMover::release() {
 
 bool HandMover::moveAside(double top_D, double most_s) {
   if (!hasHand()) return true;
-  aside_ = false;
-  aside_top_D_ = std::max(0.0, top_D);
+  aside_.reached = false;
+  aside_.top_D = std::max(0.0, top_D);
   constexpr auto kLook = std::chrono::milliseconds(5);
   const std::int64_t end_ns = monotonicNow_ns() + durationOf(most_s).count();
-  while (thread_.running() && !aside_ && monotonicNow_ns() < end_ns) std::this_thread::sleep_for(kLook);
-  return aside_;
+  while (thread_.running() && !aside_.reached && monotonicNow_ns() < end_ns) std::this_thread::sleep_for(kLook);
+  return aside_.reached;
 }
 
 // What was wanted meanwhile is over.
@@ -169,16 +169,16 @@ void HandMover::free() {
     commands_.goal_W.reset();
     commands_.release = false;
   }
-  aside_top_D_ = kFree;
+  aside_.top_D = kFree;
 }
 
 void HandMover::holdAside() {
   constexpr double kThere_m = 0.005;
-  const Vec3 goal_D = above(aside_top_D_);
+  const Vec3 goal_D = above(aside_.top_D);
   hand_->setHandGoal(goal_D);
   HandPlaces hand;
   exchange_.hand.read(hand);
-  aside_ = (hand.finger_D - goal_D).norm() < kThere_m;
+  aside_.reached = (hand.finger_D - goal_D).norm() < kThere_m;
 }
 
 void HandMover::press(std::uint32_t buttons) {

@@ -66,6 +66,11 @@ class HandMover {
     std::optional<double> gripper_rad;
   };
 
+  struct Aside {
+    std::atomic<double> top_D{kFree};  // m; kFree: the hand is where it is commanded to be
+    std::atomic<bool> reached{false};
+  };
+
   void run();
   Commands takeCommands();
   void follow(const Commands& commands);
@@ -89,8 +94,7 @@ class HandMover {
   StillScene still_;         // of the thread that moves the hand
   std::mutex mutex_;         // of commands_; the real-time loops never lock it
   Commands commands_;
-  std::atomic<double> aside_top_D_{kFree};  // m; kFree: it is where it is commanded to be
-  std::atomic<bool> aside_{false};          // it has come there
+  Aside aside_;
   LoopThread thread_;
 };
 
