@@ -1,94 +1,79 @@
-// ClientScene: what the publisher of scenes keeps of one client.
+// ClientScene: the objects of one client, on their way from its frames to the scene that is shown. Each part is for one
+// owner.
 #pragma once
-
-#include <hl.pb.h>
 
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
-#include <mutex>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/memory_budget.h"
 #include "scene/editable_scene.h"
 #include "session/check_bodies.h"
-#include "session/decode_frame.h"
+#include "session/client_callbacks.h"
+#include "session/client_frames.h"
 
 namespace hl {
 
-/// What becomes of a client's frames; all three are needed. Called by the publisher's threads, one call at a time for
-/// one client.
-struct FrameCallbacks {
-  std::function<void(std::uint64_t number, double part)> progress;
-  std::function<void(std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings)> shown;
-  std::function<void(std::uint64_t number, const std::string& why)> refused;
+struct ClientScene;
+
+/// Of the builder that ClientTable has given the client to.
+struct BuiltObjects {
+  EditableScene scene;
+  std::int64_t last_arrived_ns = 0;  ///< of the frames that it was built from
 };
 
-class ScenePublisher;
+/// What passes from thread to thread: of ClientTable, under its mutex.
+struct ClientEntry {
+  enum class Work : std::uint8_t { kNone, kFrame, kHierarchies };
 
-/// A client's objects. Made by ScenePublisher::join(), shared with the publisher, which alone sees into it.
-class ClientScene {
- public:
-  ClientScene(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory, FrameCallbacks callbacks,
-              std::shared_ptr<ClientScene> replaced)
-      : session_(session),
-        limits_(limits),
-        memory_(std::move(memory)),
-        scene_(session, limits, memory_),
-        callbacks_(std::move(callbacks)),
-        replaced_(std::move(replaced)) {}
+  std::deque<WaitingFrame> waiting;
+  Work work = Work::kNone;  ///< of a builder
+  bool removed = false;
+  std::deque<ReadyFrame> ready;  ///< not yet reported as shown
+
+  PlacedShapes placed;       ///< what is to be shown next; null when it is as it was
+  std::int64_t move_ns = 0;  ///< that it takes to get there
+  WorldParts bodies;         ///< of what was placed last
+  bool outdated = false;     ///< a hierarchy of it is
+  /// With the number, of all frames that set it, of the one that did; 0: none did.
+  std::pair<std::uint64_t, Vec3> gravity_m_s2{0, Vec3::Zero()};
+  std::shared_ptr<ClientScene> replaced;  ///< goes with the first frame
+
+  bool hasFrame() const { return isIdle() && !waiting.empty(); }
+  /// All that it has is shown, so that no frame waits for what is built anew.
+  bool mayRebuild() const { return isIdle() && outdated && waiting.empty() && !placed && ready.empty(); }
+  /// Those that are submitted and neither shown nor refused.
+  std::size_t frames() const { return waiting.size() + (work == Work::kFrame ? 1 : 0) + ready.size(); }
 
  private:
-  friend class ScenePublisher;
-  struct Waiting {
-    proto::Frame frame;
-    Uploads uploads;
-    MemoryShare memory;
-    bool answers_force = false;  ///< see SceneEdit
-    std::int64_t arrived_ns = 0;
-  };
-  enum class Work : std::uint8_t { kNone, kFrame, kHierarchies };
-  struct Ready {
-    std::uint64_t number;
-    std::vector<std::string> warnings;
-  };
+  bool isIdle() const { return work == Work::kNone && !removed; }
+};
 
-  /// Calls back unless the client has gone.
-  template <typename Call>
-  void callBack(Call call) {
-    const std::lock_guard lock(call_mutex_);
-    if (callbacks_.shown) call(callbacks_);
-  }
+/// Of the publisher's thread.
+struct ShownObjects {
+  std::vector<const Instance*> instances;  ///< by rising key
+  PlacedShapes placed;                     ///< what they were made from
+};
 
-  const std::uint32_t session_;
-  const SceneLimits limits_;
-  const MemoryBudget memory_;
-  EditableScene scene_;  // of the builder that has set work_
-  std::mutex call_mutex_;
-  FrameCallbacks callbacks_;
-  struct Shown {
-    std::vector<const Instance*> instances;  // by rising key
-    PlacedShapes placed;                     // what they were made from
-  } shown_;                                  // of the publisher's thread
-  // Under the publisher's mutex:
-  std::deque<Waiting> waiting_;
-  Work work_ = Work::kNone;  // of a builder
-  bool removed_ = false;
-  bool to_rebuild_ = false;  // a hierarchy of what was placed last is
-  struct Bodies {
-    WorldParts parts;                                         // of what was placed last
-    std::pair<std::uint64_t, Vec3> gravity{0, Vec3::Zero()};  // which of all clients' frames that set it; 0: none did
-  } bodies_;
-  struct Pace {
-    std::int64_t last_arrived_ns = 0;  // of frames
-    std::int64_t move_ns = 0;          // that what is placed takes to get there
-  } pace_;
-  PlacedShapes placed_;                    // what is to be shown next; null when it is as it was
-  std::deque<Ready> ready_;                // frames that are built and not yet reported as shown
-  std::shared_ptr<ClientScene> replaced_;  // goes with the first frame
+/// Made by ClientTable::join(). Whoever joins keeps a pointer to it and does not look into it.
+struct ClientScene {
+  ClientScene(std::uint32_t its_session, const SceneLimits& its_limits, const MemoryBudget& its_memory,
+              FrameCallbacks its_callbacks)
+      : session(its_session),
+        limits(its_limits),
+        memory(its_memory),
+        callbacks(std::move(its_callbacks)),
+        built{EditableScene(session, limits, memory)} {}
+
+  const std::uint32_t session;
+  const SceneLimits limits;
+  const MemoryBudget memory;  ///< what the client makes the server keep is counted here
+  ClientCallbacks callbacks;
+  BuiltObjects built;
+  ClientEntry entry;
+  ShownObjects shown;
 };
 
 }  // namespace hl

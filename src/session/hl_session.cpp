@@ -67,13 +67,13 @@ HlSession::~HlSession() {
   leave_(*this);
   world_.giveUpMaster(number_);
   if (!place_) return;
-  world_.publisher().detach(place_);
-  const auto replaced = world_.publisher().takeReplaced(place_);
+  world_.clients().detach(place_);
+  const auto replaced = world_.clients().takeReplaced(place_);
   if (replaced) world_.keep(client_name_, replaced);  // this client has shown nothing in their place
   if (keep_objects_ && !replaced) {
     world_.keep(client_name_, place_);
   } else {
-    world_.publisher().remove(place_);
+    world_.clients().remove(place_);
   }
 }
 
@@ -122,7 +122,7 @@ void HlSession::open(const proto::Open& open) {
   keep_objects_ = open.keep_objects();
   device_ = *device;
   master_ = open.master() && world_.becomeMaster(device_, number_);
-  place_ = world_.publisher().join(number_, world_.limits(), memory_, callbacks(), world_.takeKept(client_name_));
+  place_ = world_.clients().join(number_, world_.limits(), memory_, callbacks(), world_.takeKept(client_name_));
   proto::ServerReply reply;
   proto::Welcome& welcome = *reply.mutable_welcome();
   welcome.set_protocol_version(kProtocolVersion);
@@ -189,7 +189,7 @@ void HlSession::submit(proto::Frame frame) {
                   number);
   last_frame_ = number;
   if (!frame_rate_.allow(monotonicNow_ns())) return refuse("frames come faster than the server's limit", number);
-  if (world_.publisher().waiting(place_) >= kMaxWaitingFrames)
+  if (world_.clients().waiting(place_) >= kMaxWaitingFrames)
     return refuse("frames come faster than they can be built", number);
   MemoryShare memory(memory_);
   Uploads uploads = uploads_.take(frame, memory);
@@ -198,7 +198,7 @@ void HlSession::submit(proto::Frame frame) {
   } catch (const Error& error) {
     return refuse(error.what(), number);
   }
-  world_.publisher().submit(place_, std::move(frame), std::move(uploads), std::move(memory), next_.contact.has_value());
+  world_.clients().submit(place_, std::move(frame), std::move(uploads), std::move(memory), next_.contact.has_value());
 }
 
 // Nothing of them is set when one is wrong.

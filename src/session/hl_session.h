@@ -80,7 +80,7 @@ class HlSession final : public ClientSession {
   bool opened_ = false, master_ = false, keep_objects_ = false;
   std::string client_name_;
   std::atomic<std::uint32_t> device_{0};  // read by others
-  std::shared_ptr<ScenePublisher::ClientScene> place_;
+  std::shared_ptr<ClientScene> place_;
   UploadStore uploads_;
   std::uint64_t last_frame_ = 0;
   StateTimer states_;

@@ -12,10 +12,10 @@ FrameCallbacks noCallbacks() {
 
 }  // namespace
 
-PlacedClient::PlacedClient(ScenePublisher& publisher, std::uint32_t session, const MemoryBudget& memory)
-    : publisher_(publisher),
+PlacedClient::PlacedClient(ClientTable& clients, std::uint32_t session, const MemoryBudget& memory)
+    : clients_(clients),
       session_(session),
       memory_(memory),
-      scene_(publisher.join(session, SceneLimits{}, memory, noCallbacks())) {}
+      scene_(clients.join(session, SceneLimits{}, memory, noCallbacks())) {}
 
 }  // namespace hl

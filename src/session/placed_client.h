@@ -6,16 +6,16 @@
 #include <memory>
 
 #include "base/memory_budget.h"
-#include "session/scene_publisher.h"
+#include "session/client_table.h"
 
 namespace hl {
 
 /// One thread at a time. Its objects go with it.
 class PlacedClient {
  public:
-  /// `publisher` outlives it.
-  PlacedClient(ScenePublisher& publisher, std::uint32_t session, const MemoryBudget& memory);
-  ~PlacedClient() { publisher_.remove(scene_); }
+  /// `clients` outlive it.
+  PlacedClient(ClientTable& clients, std::uint32_t session, const MemoryBudget& memory);
+  ~PlacedClient() { clients_.remove(scene_); }
   PlacedClient(const PlacedClient&) = delete;
   PlacedClient& operator=(const PlacedClient&) = delete;
 
@@ -23,14 +23,14 @@ class PlacedClient {
   std::uint32_t session() const { return session_; }
   /// What it makes the server keep is counted here.
   const MemoryBudget& memory() const { return memory_; }
-  /// As ScenePublisher::place().
-  void place(PlacedShapes placed, std::int64_t move_ns) { publisher_.place(scene_, std::move(placed), move_ns); }
+  /// As ClientTable::place().
+  void place(PlacedShapes placed, std::int64_t move_ns) { clients_.place(scene_, std::move(placed), move_ns); }
 
  private:
-  ScenePublisher& publisher_;
+  ClientTable& clients_;
   const std::uint32_t session_;
   const MemoryBudget memory_;
-  const std::shared_ptr<ScenePublisher::ClientScene> scene_;
+  const std::shared_ptr<ClientScene> scene_;
 };
 
 }  // namespace hl

@@ -47,7 +47,7 @@ std::unique_ptr<ClientSession> TouchServer::connect(WakeSession wake) {
 
 std::unique_ptr<PlacedClient> TouchServer::placeClient() {
   const std::lock_guard lock(mutex_);
-  return std::make_unique<PlacedClient>(world_.publisher(), ++last_session_, world_.memory().member());
+  return std::make_unique<PlacedClient>(world_.clients(), ++last_session_, world_.memory().member());
 }
 
 std::vector<TouchSession*> TouchServer::otherDevices() {

@@ -53,7 +53,7 @@ class TouchServer final : public SessionHost {
   std::size_t devices() const { return world_.devices(); }
   std::vector<TouchSession*> otherDevices();  ///< from number 1 on
   std::size_t sessions() const;
-  HierarchyCounts hierarchyCounts() const { return world_.publisher().counts(); }
+  HierarchyCounts hierarchyCounts() const { return world_.clients().counts(); }
   /// Of all clients' scenes, what they have sent ahead and receive, and what pages are shown of it.
   const MemoryBudget& memory() const { return world_.memory(); }
   double time_s() const { return world_.time_s(); }

@@ -97,7 +97,7 @@ void TouchWorld::stop() {
 void TouchWorld::replaceBase(const std::shared_ptr<const Snapshot>& base) {
   checkHandsAtBodies(*base, devices_.size());
   worldOf(*base);  // one that cannot be made is refused here
-  publisher_.admitBase(*base);
+  clients().admitBase(partsOf(*base));
   MemoryShare share(memory_);
   share.take(bytesOfBase(*base));
   const bool shown = showBase(base);
@@ -151,19 +151,19 @@ void TouchWorld::giveUpMaster(std::uint32_t session) {
   std::replace(masters_.begin(), masters_.end(), session, 0U);
 }
 
-void TouchWorld::keep(const std::string& client_name, std::shared_ptr<ScenePublisher::ClientScene> place) {
+void TouchWorld::keep(const std::string& client_name, std::shared_ptr<ClientScene> place) {
   const std::lock_guard lock(mutex_);
   const auto named = [&](const auto& one) { return one.first == client_name; };
   auto gone = std::find_if(kept_.begin(), kept_.end(), named);
   if (gone == kept_.end() && kept_.size() >= settings_.limits.kept) gone = kept_.begin();
   if (gone != kept_.end()) {
-    publisher_.remove(gone->second);
+    clients().remove(gone->second);
     kept_.erase(gone);
   }
   kept_.emplace_back(client_name, std::move(place));
 }
 
-std::shared_ptr<ScenePublisher::ClientScene> TouchWorld::takeKept(const std::string& client_name) {
+std::shared_ptr<ClientScene> TouchWorld::takeKept(const std::string& client_name) {
   const std::lock_guard lock(mutex_);
   const auto named = [&](const auto& one) { return one.first == client_name; };
   const auto found = std::find_if(kept_.begin(), kept_.end(), named);

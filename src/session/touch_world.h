@@ -52,7 +52,8 @@ class TouchWorld {
   /// The number of the device that has this name; none: nothing.
   std::optional<std::uint32_t> deviceNamed(const std::string& name) const;
   ScenePublisher& publisher() { return publisher_; }
-  const ScenePublisher& publisher() const { return publisher_; }
+  ClientTable& clients() { return publisher_.clients(); }
+  const ClientTable& clients() const { return publisher_.clients(); }
   const MemoryBudget& memory() const { return memory_; }
   double time_s() const { return devices_[0]->time_s(); }
 
@@ -71,9 +72,9 @@ class TouchWorld {
 
   /// Objects whose client has gone and wanted them to stay. Of a name there are those of the client that left last;
   /// when there are too many, those that have been kept longest go.
-  void keep(const std::string& client_name, std::shared_ptr<ScenePublisher::ClientScene> place);
+  void keep(const std::string& client_name, std::shared_ptr<ClientScene> place);
   /// Null when there are none of this name.
-  std::shared_ptr<ScenePublisher::ClientScene> takeKept(const std::string& client_name);
+  std::shared_ptr<ClientScene> takeKept(const std::string& client_name);
 
   /// Hands of other servers of a shared world, in the place of those before: all clients are sent them.
   void setRemoteHands(std::vector<proto::OtherDevice> hands);
@@ -92,10 +93,10 @@ class TouchWorld {
   std::vector<std::unique_ptr<TouchSession>> devices_;
   ScenePublisher publisher_;
 
-  mutable std::mutex mutex_;            // of what follows
-  std::vector<std::uint32_t> masters_;  // session by device; 0: none
-  std::vector<std::pair<std::string, std::shared_ptr<ScenePublisher::ClientScene>>> kept_;  // by name; the oldest first
-  std::vector<proto::OtherDevice> remote_;                                                  // hands of other servers
+  mutable std::mutex mutex_;                                                // of what follows
+  std::vector<std::uint32_t> masters_;                                      // session by device; 0: none
+  std::vector<std::pair<std::string, std::shared_ptr<ClientScene>>> kept_;  // by name; the oldest first
+  std::vector<proto::OtherDevice> remote_;                                  // hands of other servers
 
   std::mutex views_mutex_;  // of the devices' views for clients
 };

@@ -42,22 +42,21 @@ class Client {
  public:
   Client(
       ScenePublisher& publisher, std::uint32_t session, const MemoryBudget& memory = {},
-      std::function<void(std::uint64_t)> on_progress = [](std::uint64_t) {},
-      std::shared_ptr<ScenePublisher::ClientScene> replaced = {})
-      : publisher_(publisher) {
+      std::function<void(std::uint64_t)> on_progress = [](std::uint64_t) {}, std::shared_ptr<ClientScene> replaced = {})
+      : clients_(publisher.clients()) {
     FrameCallbacks callbacks;
     callbacks.progress = [on_progress](std::uint64_t number, double) { on_progress(number); };
     callbacks.shown = [this](std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings) {
       keep(number, primitives, warnings.size());
     };
     callbacks.refused = [this](std::uint64_t number, const std::string&) { keep(number, kRefused, 0); };
-    place = publisher.join(session, {}, memory, std::move(callbacks), std::move(replaced));
+    place = clients_.join(session, {}, memory, std::move(callbacks), std::move(replaced));
   }
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
   ~Client() {
-    publisher_.detach(place);
-    publisher_.remove(place);
+    clients_.detach(place);
+    clients_.remove(place);
   }
 
   static constexpr std::size_t kRefused = 1'000'000;
@@ -67,7 +66,7 @@ class Client {
     bool operator==(const Reported&) const = default;
   };
 
-  void submit(proto::Frame frame) { publisher_.submit(place, std::move(frame), {}, {}); }
+  void submit(proto::Frame frame) { clients_.submit(place, std::move(frame), {}, {}); }
   /// Waits for so many.
   std::vector<Reported> reported(std::size_t count) {
     const auto all = [&] {
@@ -84,7 +83,7 @@ class Client {
     return warnings_;
   }
 
-  std::shared_ptr<ScenePublisher::ClientScene> place;
+  std::shared_ptr<ClientScene> place;
 
  private:
   void keep(std::uint64_t number, std::size_t primitives, std::size_t warnings) {
@@ -93,7 +92,7 @@ class Client {
     reported_.push_back({number, primitives});
   }
 
-  ScenePublisher& publisher_;
+  ClientTable& clients_;
   std::mutex mutex_;
   std::vector<Reported> reported_;
   std::size_t warnings_ = 0;
@@ -138,7 +137,8 @@ TEST_F(ScenePublisherTest, EachFrameIsReportedOnceAndInOrder) {
   EXPECT_TRUE(std::is_sorted(accepted.begin(), accepted.end()));
   EXPECT_EQ(accepted.size(), kFrames - kFrames / 10);
   EXPECT_EQ(refused.size(), kFrames / 10);
-  test::waitFor([&] { return publisher.waiting(client.place) == 0; });  // the last one is reported a little before
+  test::waitFor(
+      [&] { return publisher.clients().waiting(client.place) == 0; });  // the last one is reported a little before
   EXPECT_DOUBLE_EQ(shownOf(1).at(0)->motion.to().origin.x(), 0.199);
 }
 
