@@ -74,7 +74,7 @@ void printVibration(TouchSession& session) {
 void printBeginning(const std::string& scene, const TouchSession& session) {
   tell("{}: {}; device: {}{}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n", printable(scene),
        counted(session.snapshot()->primitives, "primitive"), headOf(session.label().name), session.deviceInfo().name,
-       session.servoRate_Hz(), session.workspace().world_per_device);
+       session.servoRate_Hz(), session.live().workspace().world_per_device);
   if (!session.grant().why.empty())
     tell("the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
 }

@@ -45,10 +45,10 @@ std::string answerOf(const Snapshot& scene, std::span<const std::string> given, 
 
 // How a bare model is shaded, and a scene file by itself, where the user has not said it.
 void shade(TouchSession& session, bool smooth) {
-  MaterialOverride surfaces = session.surfaces();
+  MaterialOverride surfaces = session.live().surfaces();
   surfaces.smooth.reset();
   if (smooth) surfaces.smooth = true;
-  session.setSurfaces(surfaces);
+  session.live().setSurfaces(surfaces);
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::string FileOpener::open(int descriptor, const std::string& name) {
   touch_.replaceScene(scene);
   TouchSession& session = touch_.device();
   if (smooth_) shade(session, !isSceneFile("scene" + sentEndingOf(name)));
-  const double scale = session.workspace().world_per_device;
+  const double scale = session.live().workspace().world_per_device;
   tell("{}: {}; 1 mm of the hand is {:.4g} mm of the scene\n", printable(name), counted(scene->primitives, "primitive"),
        scale);
   const std::vector<std::string> warnings = warningsOf(*scene);

@@ -7,9 +7,9 @@ namespace {
 using namespace hl;
 
 void requireBounded(const TouchSession& session) {
-  const double stiffness_N_m = session.stiffness_N_m();
+  const double stiffness_N_m = session.live().stiffness_N_m();
   fuzz::require(stiffness_N_m >= 0 && stiffness_N_m <= session.deviceInfo().stiffness_max_N_m);
-  const MaterialOverride surfaces = session.surfaces();
+  const MaterialOverride surfaces = session.live().surfaces();
   for (std::size_t i = 0; i < kNumbers; ++i) {
     const std::optional<double>& value = surfaces.number(i);
     fuzz::require(!value || (*value >= 0 && *value <= kQuantityInfo[i].most_set));

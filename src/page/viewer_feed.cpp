@@ -146,9 +146,9 @@ class PageHands {
  private:
   void letGo(std::size_t device, PageHolds::What what) const {
     if (what == PageHolds::What::kHand) {
-      sessions_[device]->release();
+      sessions_[device]->hand().release();
     } else {
-      sessions_[device]->press(0);
+      sessions_[device]->hand().press(0);
     }
   }
 
@@ -163,7 +163,7 @@ std::string state(TouchSession& session, const ViewerFeedSettings& settings, Pag
   proto::ServerMessage message;
   proto::State& out = *message.mutable_state();
   out.set_time_s(session.time_s());
-  toProto(session.workspace().toWorld(servo.finger_D), *out.mutable_finger());
+  toProto(session.live().workspace().toWorld(servo.finger_D), *out.mutable_finger());
   toProto(proxy.proxy, *out.mutable_proxy());
   toProto(servo.force_N, *out.mutable_force_n());
   for (const ProxyContact& contact : proxy.contacts) toProto(contact, *out.add_contacts());
@@ -172,12 +172,12 @@ std::string state(TouchSession& session, const ViewerFeedSettings& settings, Pag
   toProto(servo.loop, session.servoTotals(), *out.mutable_servo());
   toProto(proxy.loop, session.proxyTotals(), *out.mutable_proxy_loop());
   setSamples(out, session);
-  out.set_exploring(session.exploring());
+  out.set_exploring(session.hand().exploring());
   setEndings(proxy.ended, out);
-  out.set_hand_firm(session.handFirm());
-  out.set_stiffness_n_m(session.stiffness_N_m());
-  toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
-  setSurfaces(*out.mutable_surfaces(), session.surfaces());
+  out.set_hand_firm(session.hand().firm());
+  out.set_stiffness_n_m(session.live().stiffness_N_m());
+  toProto(proxy.ledger, servo.late, session.live().ledger(), *out.mutable_ledger());
+  setSurfaces(*out.mutable_surfaces(), session.live().surfaces());
   out.set_slipping(proxy.slipping);
   toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
@@ -187,18 +187,18 @@ std::string state(TouchSession& session, const ViewerFeedSettings& settings, Pag
   for (TouchSession* other : settings.others) setOther(*other, *out.add_others());
   if (settings.share) setShared(settings.share(), out);
   const std::int64_t now_ns = monotonicNow_ns();
-  scene.follow(session.snapshot(), {session.radius_W(), session.workspace().world_per_device}, now_ns);
+  scene.follow(session.snapshot(), {session.live().radius_W(), session.live().workspace().world_per_device}, now_ns);
   scene.describe(out, std::span(proxy.touched.begin(), proxy.touched.end()), proxy.snap, now_ns);
   return message.SerializeAsString();
 }
 
 void apply(TouchSession& session, const proto::Settings& settings) {
-  if (settings.has_explore()) session.setExplore(settings.explore());
-  if (settings.has_hand_firm()) session.setHandFirm(settings.hand_firm());
-  if (settings.has_stiffness_n_m()) session.setStiffness(settings.stiffness_n_m());
-  if (settings.has_surfaces()) session.setSurfaces(surfacesOf(settings.surfaces()));
+  if (settings.has_explore()) session.hand().setExplore(settings.explore());
+  if (settings.has_hand_firm()) session.hand().setFirm(settings.hand_firm());
+  if (settings.has_stiffness_n_m()) session.live().setStiffness(settings.stiffness_n_m());
+  if (settings.has_surfaces()) session.live().setSurfaces(surfacesOf(settings.surfaces()));
   if (settings.has_ledger() && proto::LedgerMode_IsValid(settings.ledger()))
-    session.setLedger(static_cast<LedgerMode>(settings.ledger()));
+    session.live().setLedger(static_cast<LedgerMode>(settings.ledger()));
 }
 
 void apply(const SetIso& set_iso, const proto::IsoChange& change) {
@@ -231,13 +231,13 @@ void receive(PageHands& hands, const ViewerFeedSettings& settings, PageNumber pa
   TouchSession& session = *device;
   switch (message.body_case()) {
     case proto::ViewerMessage::kHandGoal:
-      session.setHandGoal(vecOf(message.hand_goal().position()));
+      session.hand().setGoal(vecOf(message.hand_goal().position()));
       break;
     case proto::ViewerMessage::kRelease:
-      session.release();
+      session.hand().release();
       break;
     case proto::ViewerMessage::kPress:
-      session.press(message.press().buttons());
+      session.hand().press(message.press().buttons());
       break;
     case proto::ViewerMessage::kHandTurn:
       if (faultOfTurn(message.hand_turn()).empty()) turnHand(message.hand_turn(), session);
@@ -246,10 +246,10 @@ void receive(PageHands& hands, const ViewerFeedSettings& settings, PageNumber pa
       apply(session, message.settings());
       break;
     case proto::ViewerMessage::kRearm:
-      session.rearm();
+      session.live().rearm();
       break;
     case proto::ViewerMessage::kExplore:
-      session.setExplore(true);
+      session.hand().setExplore(true);
       break;
     case proto::ViewerMessage::kRecord:
       if (settings.recordings)

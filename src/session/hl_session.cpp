@@ -209,13 +209,13 @@ void HlSession::setDevice(const proto::DeviceSettings& settings) {
                                             : "only the device's master sets it, and there is none: the first client "
                                               "whose Open says master is");
   if (const std::string fault = faultOf(settings, device.hasHand()); !fault.empty()) return refuse(fault);
-  if (settings.has_workspace()) device.setWorkspace(workspaceOf(settings));
-  if (settings.has_proxy_radius()) device.setRadius(settings.proxy_radius());
-  if (settings.has_stiffness_n_m()) device.setStiffness(settings.stiffness_n_m());
-  if (settings.has_ledger()) device.setLedger(static_cast<LedgerMode>(settings.ledger()));
-  if (settings.rearm()) device.rearm();
-  if (settings.has_hand_firm()) device.setHandFirm(settings.hand_firm());
-  if (settings.has_hand_goal()) device.setHandGoal(vecOf(settings.hand_goal().position()));
+  if (settings.has_workspace()) device.live().setWorkspace(workspaceOf(settings));
+  if (settings.has_proxy_radius()) device.live().setRadius(settings.proxy_radius());
+  if (settings.has_stiffness_n_m()) device.live().setStiffness(settings.stiffness_n_m());
+  if (settings.has_ledger()) device.live().setLedger(static_cast<LedgerMode>(settings.ledger()));
+  if (settings.rearm()) device.live().rearm();
+  if (settings.has_hand_firm()) device.hand().setFirm(settings.hand_firm());
+  if (settings.has_hand_goal()) device.hand().setGoal(vecOf(settings.hand_goal().position()));
   if (settings.has_hand_turn()) turnHand(settings.hand_turn(), device);
 }
 

@@ -8,7 +8,7 @@ void toProto(const TouchSession& session, proto::DeviceInfo& out) {
   out.set_name(info.name);
   out.set_label(session.label().name);
   out.set_force_max_n(info.force_max_N);
-  out.set_stiffness_n_m(session.stiffness_N_m());
+  out.set_stiffness_n_m(session.live().stiffness_N_m());
   out.set_stiffness_max_n_m(info.stiffness_max_N_m);
   out.set_force_rate_max_n_s(info.force_rate_max_N_s);
   out.set_simulated_hand(session.hasHand());
@@ -77,7 +77,7 @@ void toProto(const HoldingSnap& snap, proto::HoldingSnap& out) {
 }
 
 void toProto(const TouchSession& session, const ServoView& servo, const ProxyView& proxy, proto::ClientState& out) {
-  const Workspace workspace = session.workspace();
+  const Workspace workspace = session.live().workspace();
   out.set_time_s(session.time_s());
   toProto(workspace.toWorld(servo.finger_D), *out.mutable_finger());
   toProto(proxy.proxy, *out.mutable_proxy());
@@ -94,20 +94,20 @@ void toProto(const TouchSession& session, const ServoView& servo, const ProxyVie
   if (servo.safety == SafetyState::kFault) out.set_fault(faultText(servo.fault));
   toProto(servo.loop, session.servoTotals(), *out.mutable_servo());
   toProto(proxy.loop, session.proxyTotals(), *out.mutable_proxy_loop());
-  toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
+  toProto(proxy.ledger, servo.late, session.live().ledger(), *out.mutable_ledger());
   toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
   setStylus(servo.stylus, session.deviceInfo(), out);
   setEndings(proxy.ended, out);
-  out.set_hand_firm(session.handFirm());
-  out.set_proxy_radius(session.radius_W());
+  out.set_hand_firm(session.hand().firm());
+  out.set_proxy_radius(session.live().radius_W());
   toProto(workspace.origin_W, *out.mutable_workspace()->mutable_origin());
   out.mutable_workspace()->set_world_per_device(workspace.world_per_device);
 }
 
 void addMoments(const TouchSession& session, std::uint64_t& next, proto::ClientState& out) {
   const LogRing<ServoMoment>& moments = session.moments();
-  const Workspace workspace = session.workspace();
+  const Workspace workspace = session.live().workspace();
   const std::uint64_t end = moments.pushed();
   if (end - next > moments.room()) next = end - moments.room();
   for (ServoMoment moment; next < end; ++next) {

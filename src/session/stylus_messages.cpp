@@ -21,8 +21,8 @@ std::string faultOfTurn(const proto::HandTurn& turn) {
 }
 
 void turnHand(const proto::HandTurn& turn, TouchSession& session) {
-  if (turn.has_rotation()) session.turnHand(turnOf(turn.rotation()));
-  if (turn.has_gripper_rad()) session.openGripper(turn.gripper_rad());
+  if (turn.has_rotation()) session.hand().turn(turnOf(turn.rotation()));
+  if (turn.has_gripper_rad()) session.hand().openGripper(turn.gripper_rad());
 }
 
 }  // namespace hl

@@ -125,14 +125,14 @@ bool TouchWorld::showBase(const std::shared_ptr<const Snapshot>& base) {
 
 void TouchWorld::fitHands(const Box& bounds, double most_s) {
   for (const auto& device : devices_) {
-    if (device->isFitted()) continue;
+    if (device->live().isFitted()) continue;
     device->moveHandAside(bounds, most_s);
-    device->fitTo(bounds);
+    device->live().refit(bounds);
   }
 }
 
 void TouchWorld::freeHands() {
-  for (const auto& device : devices_) device->freeHand();
+  for (const auto& device : devices_) device->hand().free();
 }
 
 bool TouchWorld::becomeMaster(std::uint32_t device, std::uint32_t session) {

@@ -46,6 +46,7 @@ class HandMover {
   bool moveAside(double top_D, double most_s);
   /// Ends moveAside(). Goals that were set meanwhile are dropped.
   void free();
+  /// Bit i: button i of the device is down, for a second from now: a page that has gone presses nothing.
   void press(std::uint32_t buttons);
   void turn(const Eigen::Quaterniond& turned_W);  ///< of any length but 0; else it changes nothing
   void openGripper(double gripper_rad);

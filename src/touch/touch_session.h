@@ -44,26 +44,14 @@ class TouchSession {
   void start();
   void stop();  ///< zero force, joins the threads; safe to call twice
 
-  // Of a simulated hand; they change nothing when a person holds the device.
   bool hasHand() const { return hand_.hasHand(); }
-  void setHandGoal(const Vec3& goal_W) { hand_.setGoal(goal_W); }  ///< a person takes over from the exploration
-  void release() { hand_.release(); }
-  /// Bit i: button i of the device is down, for a second from now: a page that has gone presses nothing.
-  void press(std::uint32_t buttons) { hand_.press(buttons); }
-  void turnHand(const Eigen::Quaterniond& turned_W) { hand_.turn(turned_W); }  ///< of any length but 0
-  void openGripper(double gripper_rad) { hand_.openGripper(gripper_rad); }
-  void setExplore(bool on) { hand_.setExplore(on); }
-  void setHandFirm(bool firm) { hand_.setFirm(firm); }
-  bool exploring() const { return hand_.exploring(); }
-  bool handFirm() const { return hand_.firm(); }
-
-  // See LiveSettings.
-  void setStiffness(double stiffness_N_m) { live_.setStiffness(stiffness_N_m); }
-  void setSurfaces(const MaterialOverride& surfaces) { live_.setSurfaces(surfaces); }
-  void setLedger(LedgerMode mode) { live_.setLedger(mode); }
-  void setWorkspace(const Workspace& workspace) { live_.setWorkspace(workspace); }
-  void setRadius(double radius_W) { live_.setRadius(radius_W); }
-  void rearm() { live_.rearm(); }
+  /// The simulated hand; commands change nothing when a person holds the device. The session starts and stops it.
+  HandMover& hand() { return hand_; }
+  const HandMover& hand() const { return hand_; }
+  /// What users change while the loops run.
+  LiveSettings& live() { return live_; }
+  const LiveSettings& live() const { return live_; }
+  /// As LiveSettings::actOnBody(), in the world of the bodies, which may be of several hands.
   bool actOnBody(const BodyCommand& command);
   /// In the place of the one before; its times are on the monotonic clock. One thread at a time.
   void pull(const HandPull& pull) { exchange_.pulls.write(pull); }
@@ -71,11 +59,6 @@ class TouchSession {
   void setRemote(const RemoteInput& input) { exchange_.remotes.write(input); }
   void readRemote(RemotePort& port) { exchange_.remote_ports.read(port); }
   bool makesForce() const { return exchange_.makes_force.load(std::memory_order_relaxed); }
-  double stiffness_N_m() const { return live_.stiffness_N_m(); }
-  MaterialOverride surfaces() const { return live_.surfaces(); }
-  LedgerMode ledger() const { return live_.ledger(); }
-  Workspace workspace() const { return live_.workspace(); }
-  double radius_W() const { return live_.radius_W(); }
 
   void views(ServoView& servo, ProxyView& proxy);                             ///< for the pages; one thread only
   void viewsForClients(ServoView& servo, ProxyView& proxy);                   ///< for HL clients; one thread at a time
@@ -96,12 +79,8 @@ class TouchSession {
   /// The same of one that is no change of the scene before: it is fitted to the hand.
   void publishAnew(SnapshotSlot::Ready scene) noexcept;
   /// A simulated hand goes above this scene, which is to come, and above the one that is there, and stays there until
-  /// freeHand(). Waits for it; false: it is not there after `most_s`, as something holds it. Not real-time.
+  /// hand().free(). Waits for it; false: it is not there after `most_s`, as something holds it. Not real-time.
   bool moveHandAside(const Box& bounds, double most_s);
-  void freeHand() { hand_.free(); }
-  /// What is to come is fitted to the hand; see publishAnew().
-  void fitTo(const Box& bounds) { live_.refit(bounds); }
-  bool isFitted() const { return live_.isFitted(); }  ///< or its workspace has been set
   /// Whoever ticks has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or nobody does: the loops
   /// do not run, or the servo stands still, without force, and will find the newest scene when it goes on.
   bool ready(std::int64_t since_ns) const;

@@ -24,12 +24,13 @@ namespace {
 void pressAndFeel(TouchSession& session, Bench& bench) {
   const Vec3 below_D(0, -0.02, 0);
   if (session.hasHand()) {
-    session.setHandGoal(session.workspace().toWorld(below_D));  // only the session may move a hand that it holds
+    session.hand().setGoal(
+        session.live().workspace().toWorld(below_D));  // only the session may move a hand that it holds
   } else {
     bench.arm().setHandGoal(below_D);
   }
   waitFor([&] {
-    if (servoOf(session).safety == SafetyState::kFault) session.rearm();
+    if (servoOf(session).safety == SafetyState::kFault) session.live().rearm();
     return bench.arm().force_D().y() > 0.5;
   });
 }

@@ -117,7 +117,7 @@ LabResult ShareLab::run(double seconds) {
   Turning here, there;
   std::vector<double> stale_ms;
   // On the plate, pressed in a little at its lowest.
-  bert_->touch.device().setWorkspace({});
+  bert_->touch.device().live().setWorkspace({});
   const Vec3 goal(0, kHalf.y() - kRadius_m - 0.003, 0);
   const auto begin = std::chrono::steady_clock::now();
   double next_s = 0, force_N = 0, samples = 0;
@@ -126,7 +126,7 @@ LabResult ShareLab::run(double seconds) {
     now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (now_s >= next_s) {
       placePlate(now_s);
-      bert_->touch.device().setHandGoal(goal);
+      bert_->touch.device().hand().setGoal(goal);
       bert_->keepOn();
       next_s += kFrame_s;
     }

@@ -89,7 +89,7 @@ class RosSecurity : public ::testing::Test {
   }
   // A busy machine may hold the servo up, which is a fault: then a person arms again.
   void keepOn() {
-    if (test::servoOf(session_).safety == SafetyState::kFault) session_.rearm();
+    if (test::servoOf(session_).safety == SafetyState::kFault) session_.live().rearm();
   }
   std::uint64_t taken() const { return bridge_->counts().verdicts[static_cast<std::size_t>(CommandVerdict::kTaken)]; }
   // The console reads the hand, and its force moves it.

@@ -92,7 +92,7 @@ class RosServer : public ::testing::Test {
   // A busy machine may hold the servo up, which is a fault: then a person arms again.
   Vec3 force() {
     const ServoView servo = test::servoOf(session_);
-    if (servo.safety == SafetyState::kFault) session_.rearm();
+    if (servo.safety == SafetyState::kFault) session_.live().rearm();
     return servo.force_N;
   }
   std::uint64_t verdicts(CommandVerdict verdict) const {
@@ -138,7 +138,7 @@ TEST_F(RosServer, TheStylusIsThatOfTheServo) {
   const auto twists = reader("measured_cv", test::kTwistType);
   int turns = 0, spins = 0, said = 0;
   test::waitFor([&] {
-    session_.turnHand(Eigen::Quaterniond(1, std::sin(0.05 * ++said), 0.2, 0));
+    session_.hand().turn(Eigen::Quaterniond(1, std::sin(0.05 * ++said), 0.2, 0));
     const Stamped pose = newestOf(*poses);
     if (const auto moments = momentsUntil(pose.time_ns); !moments.empty()) {
       const Stylus& stylus = moments[0].stylus;

@@ -95,7 +95,8 @@ class KilledServer : public testing::Test {
       ServoView servo;
       ProxyView proxy;
       bert_->touch.device().views(servo, proxy);
-      if (servo.safety == SafetyState::kFault) bert_->touch.device().rearm();  // a busy machine holds the servo up
+      if (servo.safety == SafetyState::kFault)
+        bert_->touch.device().live().rearm();  // a busy machine holds the servo up
       EXPECT_GT(proxy.proxy.y(), -kStill_m);
       EXPECT_LT((proxy.proxy - kPlace).norm(), 2 * kStill_m);
       return condition();
@@ -113,10 +114,10 @@ TEST_F(KilledServer, LosesNothingHoweverOftenItIsKilledAndNoHandMoves) {
   const int kills = said == nullptr ? 3 : std::atoi(said);
   auto killed = anna();
   waitFor([this] { return bert_->scene()->instances.size() == kObjects; });
-  bert_->touch.device().setWorkspace({});
+  bert_->touch.device().live().setWorkspace({});
   waitFor([this] {
     // It is let go a moment after the objects have come.
-    bert_->touch.device().setHandGoal(kPlace - Vec3(0, kStill_m, 0));
+    bert_->touch.device().hand().setGoal(kPlace - Vec3(0, kStill_m, 0));
     ServoView servo;
     ProxyView proxy;
     bert_->touch.device().views(servo, proxy);

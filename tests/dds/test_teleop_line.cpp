@@ -120,8 +120,8 @@ TEST(TeleopOnALine, TheNetworkGivesNoMoreThanItsTanks) {
   // Four strokes to the wall and off, each until the robot says that it has pressed more, and is free.
   const Vec3 begin_D = test::servoOf(session).finger_D;
   const auto go = [&](double y_m) {
-    if (test::servoOf(session).safety == SafetyState::kFault) session.rearm();  // of a busy machine
-    session.setHandGoal(session.workspace().toWorld(begin_D + Vec3(0, y_m, 0)));
+    if (test::servoOf(session).safety == SafetyState::kFault) session.live().rearm();  // of a busy machine
+    session.hand().setGoal(session.live().workspace().toWorld(begin_D + Vec3(0, y_m, 0)));
   };
   for (int stroke = 0; stroke < 4; ++stroke) {
     const RobotTotals before = *lastOf(log);

@@ -32,7 +32,7 @@ class PageThatHolds : public testing::Test {
     session_.start();
     server_.start();
     page_.emplace(server_.port(), test::Headers{}, "/viewer");
-    goal_.mutable_hand_goal()->mutable_position()->set_y(-0.015 * session_.workspace().world_per_device);
+    goal_.mutable_hand_goal()->mutable_position()->set_y(-0.015 * session_.live().workspace().world_per_device);
     press_.mutable_press()->set_buttons(2);
   }
   static TouchSettings settings() {
@@ -51,7 +51,7 @@ class PageThatHolds : public testing::Test {
       page_->sendBinary(goal_.SerializeAsString());
       page_->sendBinary(press_.SerializeAsString());
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      if (servo().safety == SafetyState::kFault) session_.rearm();  // a busy machine may hold the servo up
+      if (servo().safety == SafetyState::kFault) session_.live().rearm();  // a busy machine may hold the servo up
       return servo().force_N.norm() > 1 && servo().buttons == 2;
     });
   }

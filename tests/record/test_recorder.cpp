@@ -687,9 +687,9 @@ TEST_F(Recording, AWholeSessionOnTheRealClockIsReproduced) {
     TouchSession session(sceneOf("teapot"), touch);
     session.start();
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
-    session.setStiffness(700);
+    session.live().setStiffness(700);
     session.publish(sceneOf("sphere:500"));
-    session.setWorkspace({Vec3(0.01, 0, 0), 1.5});
+    session.live().setWorkspace({Vec3(0.01, 0, 0), 1.5});
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
     session.stop();
     const ReplayReport report = replay(path);

@@ -84,7 +84,7 @@ class RosBridgeTest : public ::testing::Test {
   // A busy machine may hold a servo up, which is a fault: then a person arms again.
   Vec3 forceOf(std::size_t hand) {
     const ServoView servo = test::servoOf(sessions_[hand]);
-    if (servo.safety == SafetyState::kFault) sessions_[hand].rearm();
+    if (servo.safety == SafetyState::kFault) sessions_[hand].live().rearm();
     return servo.force_N;
   }
   std::uint64_t count(CommandVerdict verdict) const {

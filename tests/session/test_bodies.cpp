@@ -303,8 +303,8 @@ TouchServerSettings withDevices(std::size_t count) {
 // Sends the hand of one device there, again and again, until this holds.
 bool send(TouchSession& hand, const Vec3& goal, Client& client, const std::function<bool()>& reached) {
   return client.until([&] {
-    if (servoOf(hand).safety == SafetyState::kFault) hand.rearm();  // a busy machine
-    hand.setHandGoal(goal);
+    if (servoOf(hand).safety == SafetyState::kFault) hand.live().rearm();  // a busy machine
+    hand.hand().setGoal(goal);
     return client.state_.bodies_size() > 0 && reached();
   });
 }
@@ -320,7 +320,7 @@ TEST(Bodies, AreMovedByTheHandsOfAllDevices) {
     TouchSession& hand = server.device(device);
     const double side = device == 0 ? -1 : 1;
     const auto at = [&](const Vec3& place) {
-      return (hand.workspace().toWorld(servoOf(hand).finger_D) - place).norm() < 0.005;
+      return (hand.live().workspace().toWorld(servoOf(hand).finger_D) - place).norm() < 0.005;
     };
     const auto block_m = [&] { return client.state_.bodies(0).position().x(); };
     const Vec3 above(side * 0.055, 0.06, 0), beside(side * 0.055, 0.02, 0);

@@ -59,7 +59,7 @@ class IsoChangeTest : public testing::Test {
 
 TEST_F(IsoChangeTest, IsTheSameObjectAndNothingElseChanges) {
   const auto before = shown();
-  const Workspace workspace = server_.device().workspace();
+  const Workspace workspace = server_.device().live().workspace();
   send(1, -900);
   ASSERT_TRUE(until([this] { return shows(-900); }));
   const auto after = shown();
@@ -71,7 +71,7 @@ TEST_F(IsoChangeTest, IsTheSameObjectAndNothingElseChanges) {
   EXPECT_EQ(after->instances[1].replaced_in, 0U);
   EXPECT_EQ(after->name, before->name);
   EXPECT_EQ(after->blend_ns, kAbruptBlend_ns);
-  EXPECT_EQ(server_.device().workspace().world_per_device, workspace.world_per_device);
+  EXPECT_EQ(server_.device().live().workspace().world_per_device, workspace.world_per_device);
 }
 
 // What its matter says at the new value is in its material; what else the material says stays.
@@ -123,7 +123,7 @@ TEST(IsoChange, ASceneWithoutVolumesRefusesIt) { EXPECT_THROW(checkIsoChange(*ma
 
 TEST_F(IsoChangeTest, TheForceStaysBoundedWhileTheValueSweeps) {
   TouchSession& device = server_.device();
-  device.setHandGoal({0, 0.04, 0});
+  device.hand().setGoal({0, 0.04, 0});
   const double most_N = device.deviceInfo().force_max_N;
   for (const double value : {-480.0, -900.0, -200.0, 300.0, -900.0, 300.0, -480.0}) {
     send(1, value);

@@ -59,9 +59,9 @@ class RecordedHands : public testing::Test {
   static void stir(TouchServer& server, test::BodiesClient& client, int states) {
     EXPECT_TRUE(client.until([&] {
       for (std::size_t i = 0; i < kHands; ++i) {
-        if (server.device(i).servoTotals().steps % 50 == 0) server.device(i).rearm();  // a busy machine
+        if (server.device(i).servoTotals().steps % 50 == 0) server.device(i).live().rearm();  // a busy machine
         const double angle = 0.04 * states + 2 * static_cast<double>(i);
-        server.device(i).setHandGoal(Vec3(0.05 * std::cos(angle), 0.02, 0.02 * std::sin(angle)));
+        server.device(i).hand().setGoal(Vec3(0.05 * std::cos(angle), 0.02, 0.02 * std::sin(angle)));
       }
       return --states < 0;
     }));

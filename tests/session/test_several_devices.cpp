@@ -46,7 +46,7 @@ class SeveralDevices : public testing::Test {
   // A busy machine may cause a fault of its own, which is not what is tested: then a person arms again.
   bool isOn(std::size_t number) {
     const bool own = servo(number).safety == SafetyState::kFault && !bench_->arm(number).lost;
-    if (own && !(bench_->arm(0).lost || bench_->arm(1).lost)) server_->device(number).rearm();
+    if (own && !(bench_->arm(0).lost || bench_->arm(1).lost)) server_->device(number).live().rearm();
     return servo(number).safety == SafetyState::kOn;
   }
   bool isInFault(std::size_t number, FaultReason reason) {
@@ -125,7 +125,7 @@ TEST_F(SeveralDevices, AreAllInTheMetricsAndInTheHealth) {
   bench_->arm(1).lost = true;
   waitFor([this] { return isInFault(1, FaultReason::kDeviceLost); });
   waitFor([&] {
-    if (servo(0).safety == SafetyState::kFault) server_->device(0).rearm();
+    if (servo(0).safety == SafetyState::kFault) server_->device(0).live().rearm();
     return monitor.fault() ==
            "device 'right': the servo is in fault: the device does not answer: check its cable and power";
   });
@@ -179,7 +179,7 @@ TEST_F(SeveralDevices, OneThatIsLostLeavesTheOtherOn) {
   EXPECT_NE(servo(1).fault, FaultReason::kDeviceLost);
   bench_->arm(0).lost = false;
   waitFor([this] { return isInFault(0, FaultReason::kDeviceReturned); });
-  server_->device(0).rearm();
+  server_->device(0).live().rearm();
   waitFor([this] { return isOn(0) && isOn(1); });
 }
 
@@ -193,13 +193,13 @@ TEST_F(SeveralDevices, OfJoinedFaultsOneStopsBothAndToArmOneIsToArmBoth) {
     EXPECT_EQ(servo(other).force_N, Vec3(Vec3::Zero()));
     EXPECT_LT(bench_->arm(other).force_D().norm(), 1e-12);
     // Nobody can arm the other while this one is away; the wish waits.
-    server_->device(other).rearm();
+    server_->device(other).live().rearm();
     const std::uint64_t steps = server_->device(other).servoTotals().steps;
     waitFor([&] { return server_->device(other).servoTotals().steps > steps + 50; });
     EXPECT_TRUE(isInFault(other, FaultReason::kOtherDevice));
     bench_->arm(lost).lost = false;
     waitFor([&] { return servo(lost).fault != FaultReason::kDeviceLost; });
-    server_->device(other).rearm();
+    server_->device(other).live().rearm();
     waitFor([this] { return isOn(0) && isOn(1); });
   }
 }

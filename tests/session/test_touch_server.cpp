@@ -138,7 +138,7 @@ Vec3 fingerOf(TouchSession& session) {
   ServoView servo;
   ProxyView proxy;
   session.views(servo, proxy);
-  return session.workspace().toWorld(servo.finger_D);
+  return session.live().workspace().toWorld(servo.finger_D);
 }
 
 TEST(ReplaceScene, ShowsAnotherFittedToTheHandWhichIsAboveItThen) {
@@ -147,16 +147,16 @@ TEST(ReplaceScene, ShowsAnotherFittedToTheHandWhichIsAboveItThen) {
   TouchServer server(boxScene("small", 1), settings);
   server.start();
   TouchSession& session = server.device();
-  const double scale = session.workspace().world_per_device;
-  session.setHandGoal({0, 0, 0});  // onto the box
+  const double scale = session.live().workspace().world_per_device;
+  session.hand().setGoal({0, 0, 0});  // onto the box
   const std::uint64_t key = session.snapshot()->instances.at(0).key;
   server.replaceScene(boxScene("large", 10));
   EXPECT_EQ(session.snapshot()->name, "large");
   EXPECT_NE(session.snapshot()->instances.at(0).key, key);
-  EXPECT_NEAR(session.workspace().world_per_device, 10 * scale, 1e-9);
+  EXPECT_NEAR(session.live().workspace().world_per_device, 10 * scale, 1e-9);
   EXPECT_GT(fingerOf(session).y(), 10);
   server.replaceScene(boxScene("small again", 1));
-  EXPECT_NEAR(session.workspace().world_per_device, scale, 1e-12);
+  EXPECT_NEAR(session.live().workspace().world_per_device, scale, 1e-12);
 }
 
 TEST(ReplaceScene, FreesAHandThatTheSceneBeforeHolds) {
@@ -414,7 +414,7 @@ TEST_F(TouchServerTest, UploadsInPartsAreOneMesh) {
 TEST_F(TouchServerTest, AWorkspaceThatNobodyCanComputeWithIsRefused) {
   Client client(server_);
   client.open();
-  const double before = server_.device().workspace().world_per_device;
+  const double before = server_.device().live().workspace().world_per_device;
   for (const double scale : {0.0, -1.0, 1e300, 1e-300, std::numeric_limits<double>::quiet_NaN()}) {
     proto::ClientMessage message;
     message.mutable_device()->mutable_workspace()->set_world_per_device(scale);
@@ -427,7 +427,7 @@ TEST_F(TouchServerTest, AWorkspaceThatNobodyCanComputeWithIsRefused) {
   client.refusal_.Clear();
   client.session_->receive(message);
   ASSERT_TRUE(client.until([&] { return !client.refusal_.text().empty(); }));
-  EXPECT_EQ(server_.device().workspace().world_per_device, before);
+  EXPECT_EQ(server_.device().live().workspace().world_per_device, before);
 }
 
 // An empty polygon is two bytes on the wire and fifty in memory: the limit is of memory.
@@ -618,7 +618,7 @@ TEST_F(TouchServerTest, SettingsThatAreNoneAreRefusedAndNothingOfThemIsSet) {
             "hand_turn.gripper_rad must be finite");
   EXPECT_EQ(refusalOf([&](auto& m) { m.mutable_device()->mutable_hand_goal()->mutable_position()->set_x(nan); }),
             "hand_goal.position must hold finite numbers");
-  EXPECT_FALSE(server_.device().handFirm());
+  EXPECT_FALSE(server_.device().hand().firm());
   proto::ClientMessage message;
   message.mutable_device()->set_hand_firm(true);
   client.session_->receive(message);
@@ -662,7 +662,7 @@ TEST_F(TouchServerTest, ContactReportsHoldAllThatWasPressed) {
   proto::ClientMessage message;
   message.mutable_contact_report_request()->set_wanted(true);
   client.session_->receive(message);
-  server_.device().setHandGoal(server_.device().workspace().toWorld({0, -0.05, 0}));
+  server_.device().hand().setGoal(server_.device().live().workspace().toWorld({0, -0.05, 0}));
   double last_s = 0;
   int states = 0, pressed = 0;
   for (int reports = 0; reports < 400 && pressed < 5;) {
@@ -832,7 +832,7 @@ TEST_F(TouchServerTest, EachDeviceHasAProxyOfItsOwn) {
   ASSERT_TRUE(client.show(client.floorFrame(-0.02)));
   EXPECT_EQ(client.welcome_.devices_size(), 2);
   EXPECT_EQ(server.device(0).snapshot(), server.device(1).snapshot());
-  server.device(1).setHandGoal({0, -0.03, 0});
+  server.device(1).hand().setGoal({0, -0.03, 0});
   ASSERT_TRUE(client.until([&] { return !client.events_.empty(); })) << "its objects are felt on both";
 }
 
@@ -844,10 +844,10 @@ TEST(TouchServer, TheFirstWorldIsFittedToTheHand) {
   Client client(server);
   client.open();
   ASSERT_TRUE(client.show(client.floorFrame(0)));
-  EXPECT_NEAR(server.device().workspace().world_per_device, 2 / settings.touch.side_D, 1e-9);
-  EXPECT_NEAR(server.device().radius_W(), settings.touch.radius_D * 2 / settings.touch.side_D, 1e-12);
+  EXPECT_NEAR(server.device().live().workspace().world_per_device, 2 / settings.touch.side_D, 1e-9);
+  EXPECT_NEAR(server.device().live().radius_W(), settings.touch.radius_D * 2 / settings.touch.side_D, 1e-12);
   ASSERT_TRUE(client.show(client.floorFrame(1)));
-  EXPECT_NEAR(server.device().workspace().origin_W.y(), 0, 1e-12) << "only the first";
+  EXPECT_NEAR(server.device().live().workspace().origin_W.y(), 0, 1e-12) << "only the first";
 }
 
 // In metres of the world, whatever comes first: the world, the workspace or the radius.
@@ -857,16 +857,16 @@ TEST(TouchServer, ARadiusThatIsSetBeforeTheFirstWorldHolds) {
     settings.touch.world_per_device.reset();
     TouchServer server(nothing(), settings);
     server.start();
-    server.device().setRadius(0.003);
-    if (workspace) server.device().setWorkspace({Vec3::Zero(), 5});
-    EXPECT_EQ(server.device().radius_W(), 0.003);
+    server.device().live().setRadius(0.003);
+    if (workspace) server.device().live().setWorkspace({Vec3::Zero(), 5});
+    EXPECT_EQ(server.device().live().radius_W(), 0.003);
     Client client(server);
     client.open();
     ASSERT_TRUE(client.show(client.floorFrame(0)));
-    EXPECT_NEAR(server.device().workspace().world_per_device, workspace ? 5 : 2 / settings.touch.side_D, 1e-9);
-    EXPECT_EQ(server.device().radius_W(), 0.003);
-    server.device().setWorkspace({Vec3::Zero(), 2 * server.device().workspace().world_per_device});
-    EXPECT_DOUBLE_EQ(server.device().radius_W(), 0.006) << "then it stays as it is at the hand";
+    EXPECT_NEAR(server.device().live().workspace().world_per_device, workspace ? 5 : 2 / settings.touch.side_D, 1e-9);
+    EXPECT_EQ(server.device().live().radius_W(), 0.003);
+    server.device().live().setWorkspace({Vec3::Zero(), 2 * server.device().live().workspace().world_per_device});
+    EXPECT_DOUBLE_EQ(server.device().live().radius_W(), 0.006) << "then it stays as it is at the hand";
   }
 }
 

@@ -72,7 +72,7 @@ class SharedServer {
     ServoView servo;
     ProxyView proxy;
     touch.device().views(servo, proxy);
-    if (servo.safety == SafetyState::kFault) touch.device().rearm();
+    if (servo.safety == SafetyState::kFault) touch.device().live().rearm();
   }
   std::shared_ptr<const Snapshot> scene() { return touch.device().snapshot(); }
   /// Of those that are not of this server's own scene: the widest first.

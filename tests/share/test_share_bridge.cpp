@@ -70,25 +70,25 @@ TEST_F(SharedServers, AHandKeepsTheWorkspaceThatItHas) {
   };
   const auto set = with(2, "bert");
   const Workspace own{Vec3(0.1, 0.2, 0.3), 2};
-  set->touch.device().setWorkspace(own);
+  set->touch.device().live().setWorkspace(own);
   const auto unset = with(3, "carl");
   waitForBoth(*set);
   waitForBoth(*unset);
-  waitFor([&] { return unset->touch.device().workspace().world_per_device > 3; });  // the floor has 2 m
-  EXPECT_EQ(set->touch.device().workspace().origin_W, own.origin_W);
-  EXPECT_EQ(set->touch.device().workspace().world_per_device, own.world_per_device);
+  waitFor([&] { return unset->touch.device().live().workspace().world_per_device > 3; });  // the floor has 2 m
+  EXPECT_EQ(set->touch.device().live().workspace().origin_W, own.origin_W);
+  EXPECT_EQ(set->touch.device().live().workspace().world_per_device, own.world_per_device);
 }
 
 TEST_F(SharedServers, WhatAHandPressesOnABodyOfAnotherMovesIt) {
   const auto a = add(1, "anna", floorAndBlock(kNear)), b = add(2, "bert", nothing());
   waitForBoth(*b);
   waitFor([&] { return std::abs(placeOf(*b->other(kBlockThere)).y() - kHalf_m) < 1e-3; });
-  b->touch.device().setWorkspace({});
+  b->touch.device().live().setWorkspace({});
   waitFor([&] { return b->bridge.view().counts.items == kBoth; });
   // From the left, at the height of its centre, and through it; again where a busy machine has made a fault meanwhile.
   const double from = -0.08, to = 0.05;
   for (double x = from; placeOf(a->own(kBlock)).x() < 0.01; x = x < to ? x + 1e-4 : from) {
-    b->touch.device().setHandGoal(Vec3(x, x < -0.06 ? 0.1 : 0.015, 0));
+    b->touch.device().hand().setGoal(Vec3(x, x < -0.06 ? 0.1 : 0.015, 0));
     for (SharedServer* server : {a.get(), b.get()}) server->keepOn();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

@@ -20,7 +20,7 @@ TouchSettings quietHand() {
 // A busy machine may hold the servo up, which is a fault: then a person arms again.
 Vec3 forceOf(TouchSession& session) {
   const ServoView servo = test::servoOf(session);
-  if (servo.safety == SafetyState::kFault) session.rearm();
+  if (servo.safety == SafetyState::kFault) session.live().rearm();
   return servo.force_N;
 }
 

@@ -105,7 +105,7 @@ struct Bench {
   void waitFor(SafetyState state) const {
     waitUntil([&] {
       const ServoView now = view();
-      if (now.fault == FaultReason::kStalled || now.fault == FaultReason::kDeadlines) session->rearm();
+      if (now.fault == FaultReason::kStalled || now.fault == FaultReason::kDeadlines) session->live().rearm();
       return now.safety == state;
     });
   }
@@ -127,7 +127,7 @@ TEST(ServoWatch, ADriverThatHangsIsStoppedFromOutsideAndTheServoFindsItselfInFau
   waitUntil([&] { return bench.session->servoTotals().steps > steps + 100; });
   EXPECT_EQ(bench.view().fault, FaultReason::kStalled);
   EXPECT_EQ(bench.device->force, 0);
-  bench.session->rearm();
+  bench.session->live().rearm();
   bench.waitFor(SafetyState::kOn);
   waitUntil([&] { return bench.device->force == 1; });
 }
@@ -163,7 +163,7 @@ TEST(ServoWatch, ALostDeviceThatReturnsIsReportedAndArmsAgainWhereItIsWanted) {
     bench.device->lost = false;
     if (!arm_again) {
       waitUntil([&] { return bench.view().fault == FaultReason::kDeviceReturned; });
-      bench.session->rearm();
+      bench.session->live().rearm();
     }
     bench.waitFor(SafetyState::kOn);
   }

@@ -41,7 +41,7 @@ TEST(C65TouchSession, TheExploringHandTouchesAndTheProxyShownStaysOutside) {
     ASSERT_TRUE(servo.force_N.allFinite());
     ASSERT_LE(servo.force_N.norm(), session.deviceInfo().force_max_N * (1 + 1e-9));
     if (proxy.loop.rate_Hz > 0) {
-      ASSERT_GE(clearance(*snapshot, proxy.proxy, session.radius_W()), session.radius_W() * (1 - 1e-6));
+      ASSERT_GE(clearance(*snapshot, proxy.proxy, session.live().radius_W()), session.live().radius_W() * (1 - 1e-6));
     }
     strongest = std::max(strongest, servo.force_N.norm());
   }
@@ -56,7 +56,7 @@ TEST(TouchSession, APersonTakesOverAndThePressIsFelt) {
   settings.explore = false;
   TouchSession session(snapshot, settings);
   session.start();
-  session.setHandGoal(Vec3(0, -0.02, 0));
+  session.hand().setGoal(Vec3(0, -0.02, 0));
   double strongest = 0;
   for (int i = 0; i < 200 && strongest < 0.5; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -66,13 +66,13 @@ TEST(TouchSession, APersonTakesOverAndThePressIsFelt) {
     strongest = std::max(strongest, servo.force_N.y());
   }
   EXPECT_GT(strongest, 0.5);
-  EXPECT_FALSE(session.exploring());
+  EXPECT_FALSE(session.hand().exploring());
 }
 
 // A busy machine may hold the servo up, which is a fault: then a person arms again.
 ServoView armedServoOf(TouchSession& session) {
   const ServoView servo = test::servoOf(session);
-  if (servo.safety == SafetyState::kFault) session.rearm();
+  if (servo.safety == SafetyState::kFault) session.live().rearm();
   return servo;
 }
 
@@ -84,7 +84,7 @@ TEST(TouchSession, AButtonHeldOnThePageIsADeadMansSwitchAndComesUpWhenThePageHas
   TouchSession session(makeSnapshot(makeBuiltinScene("plane:2000"), HierarchyKind::kBvh), settings);
   session.start();
   const FeedCallbacks page = makeViewerFeed(session, "test");
-  session.setHandGoal(Vec3(0, -0.02, 0));
+  session.hand().setGoal(Vec3(0, -0.02, 0));
   test::waitFor([&] {
     const ServoView servo = armedServoOf(session);
     return servo.safety == SafetyState::kWaiting && servo.finger_D.y() < -0.001 && servo.force_N.isZero(0);
@@ -223,12 +223,12 @@ TEST(TouchSession, EachTickIsCountedByWhyItEndedAndPagesAndClientsGetTheCounts) 
 TEST(TouchSession, BadCommandsChangeNothing) {
   const auto snapshot = makeSnapshot(makeBuiltinScene("plane:200"), HierarchyKind::kBvh);
   TouchSession session(snapshot, {});
-  const double before = session.stiffness_N_m();
-  session.setStiffness(-1);
-  session.setStiffness(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(session.stiffness_N_m(), before);
-  session.setStiffness(1e9);
-  EXPECT_EQ(session.stiffness_N_m(), session.deviceInfo().stiffness_max_N_m);
+  const double before = session.live().stiffness_N_m();
+  session.live().setStiffness(-1);
+  session.live().setStiffness(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(session.live().stiffness_N_m(), before);
+  session.live().setStiffness(1e9);
+  EXPECT_EQ(session.live().stiffness_N_m(), session.deviceInfo().stiffness_max_N_m);
   FeedCallbacks feed = makeViewerFeed(session, "test");
   feed.receive(1, "\xff\xff garbage");
   EXPECT_FALSE(feed.hello().empty());
