@@ -174,7 +174,7 @@ TEST(TouchSession, TheHandExploresWhileBodiesMove) {
   TouchSession session(scene, {});
   session.start();
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  EXPECT_TRUE(session.exploring());
+  EXPECT_TRUE(session.hand().exploring());
   EXPECT_LT(scene->instances[1].body->poses->shown().pose.origin.y(), 0.19) << "it has fallen";
 }
 
