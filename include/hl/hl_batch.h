@@ -68,8 +68,8 @@ HL_API HLbatchScene* hlBatchMakeImplicit(const char* json);
 HL_API void hlBatchDeleteScene(HLbatchScene* scene);
 /** How many triangles, segments and points it has. */
 HL_API size_t hlBatchScenePrimitives(const HLbatchScene* scene);
-/** What was left out or changed when it was read or made, one line; valid as long as the scene. `number` from 0 on; NULL
- * from the last one on. */
+/** What was left out or changed when it was read or made, one line; valid as long as the scene. `number` from 0 on;
+ * NULL from the last one on. */
 HL_API const char* hlBatchSceneWarning(const HLbatchScene* scene, size_t number);
 /** The box around it: 3 numbers each. Of an empty scene `low` is above `high`. */
 HL_API void hlBatchSceneBounds(const HLbatchScene* scene, HLdouble* low, HLdouble* high);

@@ -26,7 +26,9 @@ HeightField::HeightField(const HeightField& other, const GridFrame& frame)
 }
 
 void requireTriangles(const HeightField& field) {
-  if (field.triangles() == 0) throw Error("its samples are missing, are no finite numbers (of 32 bits), or lack neighbours: there is nothing to touch");
+  if (field.triangles() == 0)
+    throw Error(
+        "its samples are missing, are no finite numbers (of 32 bits), or lack neighbours: there is nothing to touch");
 }
 
 // A triangle has at least the area |det| / (2 |M_w|): its shadow along the third axis.

@@ -98,7 +98,9 @@ std::size_t chosenGrid(const std::vector<GridInFile>& grids, const std::string& 
   for (const bool level_set : {true, false}) {
     const auto fits = [&](const GridInFile& grid) { return grid.floats && (grid.level_set || !level_set); };
     const auto count = std::count_if(grids.begin(), grids.end(), fits);
-    if (count > 1) throw Error(fmt::format("has several grids: say which (--grid NAME, or \"grid\" in a scene file); it has {}", listed(grids)));
+    if (count > 1)
+      throw Error(fmt::format("has several grids: say which (--grid NAME, or \"grid\" in a scene file); it has {}",
+                              listed(grids)));
     if (count == 1) return static_cast<std::size_t>(std::find_if(grids.begin(), grids.end(), fits) - grids.begin());
   }
   throw Error(fmt::format("has no grid of float, which could be touched; it has {}", listed(grids)));

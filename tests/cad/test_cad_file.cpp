@@ -241,7 +241,8 @@ TEST_F(CadFile, WhatIsBrokenGivesOneLine) {
   }
 }
 
-// At many places: OpenCASCADE goes on for ever where a number of a BREP file is missing, and takes what is there of IGES.
+// At many places: OpenCASCADE goes on for ever where a number of a BREP file is missing, and takes what is there of
+// IGES.
 TEST_F(CadFile, CutFilesAreRefused) {
   const TopoDS_Shape shape = test::bored(5, 10);
   const std::string brep = tempFile("whole.brep"), iges = tempFile("whole.igs");

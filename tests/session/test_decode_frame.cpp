@@ -143,8 +143,10 @@ TEST(DecodeFrame, HeightFieldsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(with([](auto& in, auto&) { in.set_spacing(-1); }), where + "spacing must be from 1e-12 to 1e9");
   EXPECT_EQ(with([](auto& in, auto&) { in.set_vertical_scale(std::numeric_limits<double>::quiet_NaN()); }),
             where + "verticalScale must be from 1e-12 to 1e9");
-  EXPECT_EQ(with([](auto& in, auto&) { in.set_values(2, std::numeric_limits<float>::quiet_NaN()); }),
-            where + "its samples are missing, are no finite numbers (of 32 bits), or lack neighbours: there is nothing to touch");
+  EXPECT_EQ(
+      with([](auto& in, auto&) { in.set_values(2, std::numeric_limits<float>::quiet_NaN()); }),
+      where +
+          "its samples are missing, are no finite numbers (of 32 bits), or lack neighbours: there is nothing to touch");
   EXPECT_EQ(
       with([](auto&, auto& in) { in.add_vertices(1); }),
       "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
