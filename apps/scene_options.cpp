@@ -36,6 +36,7 @@ void addCadOptions(CLI::App& command, CadMeshing& cad) {
       .add_option("--deflection", cad.deflection_m,
                   "of a CAD file: distance in metres between its curved surfaces and the triangles made of them")
       ->check(within(kMinDeflection_m, kMaxDeflection_m))
+      ->each([&cad](const std::string&) { cad.asked = true; })
       ->capture_default_str();
   command
       .add_option("--deflection-angle", cad.angle_rad,

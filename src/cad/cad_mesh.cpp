@@ -35,9 +35,11 @@ constexpr double kCoarse = 64;
 // Of a shape that is large for its deflection that mesh may be too much itself. The first is no finer than this part of
 // the shape, each one after it by kFiner.
 constexpr double kFirst = 1e-3, kFiner = 8;
-// Of the processor, for a mesh: the reading process has 120 s. Where nobody has asked for a deflection, nobody is to
-// wait for so long.
-constexpr double kMost_s = 90, kUnasked_s = 10;
+// Of the processor, for all meshes: the reading process has 120 s.
+constexpr double kMost_s = 90;
+// Where nobody has asked for a deflection, nobody is to wait for so long: in triangles of small faces, some 14 us each.
+// By counts and not by the clock, so that a file is the same mesh everywhere.
+constexpr double kUnaskedWork = 700'000;
 
 void makeMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, const Message_ProgressRange& progress) {
   IMeshTools_Parameters parameters;
@@ -80,6 +82,16 @@ struct MeshEstimate {
   bool fits(double deflection_m, const MeshLimits& most) const {
     return triangles(deflection_m) <= static_cast<double>(most.triangles) && time_s(deflection_m) <= most.time_s;
   }
+  // In triangles of small faces. Of a face of n it is n (1 + n / 70 000): measured of a sphere of 18 000 to 590 000.
+  double work(double deflection_m) const {
+    constexpr double kOfTwiceTheTime = 70'000;
+    double sum = 0;
+    for (const FaceEstimate& face : faces) {
+      const double of_face = face.triangles * std::pow(coarse_m / deflection_m, face.growth);
+      sum += of_face * (1 + of_face / kOfTwiceTheTime);
+    }
+    return sum;
+  }
   /// The finest one from this on that fits.
   double finestThatFits_m(double deflection_m, const MeshLimits& most) const {
     while (!fits(deflection_m, most) && deflection_m < kMaxDeflection_m) deflection_m *= 2;
@@ -95,16 +107,6 @@ struct MeshEstimate {
 
  private:
   double coarseTriangles() const { return std::max(1.0, triangles(coarse_m)); }
-  // In triangles of small faces. Of a face of n it is n (1 + n / 70 000): measured of a sphere of 18 000 to 590 000.
-  double work(double deflection_m) const {
-    constexpr double kOfTwiceTheTime = 70'000;
-    double sum = 0;
-    for (const FaceEstimate& face : faces) {
-      const double of_face = face.triangles * std::pow(coarse_m / deflection_m, face.growth);
-      sum += of_face * (1 + of_face / kOfTwiceTheTime);
-    }
-    return sum;
-  }
 };
 
 double processorTime_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -128,7 +130,9 @@ MeshEstimate estimateBy(double coarse_m, const TopoDS_Shape& shape, const CadMes
 double sizeOf_m(const TopoDS_Shape& shape) {
   Bnd_Box box;
   BRepBndLib::Add(shape, box);
-  return box.IsVoid() ? 0 : kCadUnit_m * std::sqrt(box.SquareExtent());
+  const double size_m = box.IsVoid() ? 0 : kCadUnit_m * std::sqrt(box.SquareExtent());
+  if (!std::isfinite(size_m)) throw Error("has no finite size: the file is corrupt");
+  return size_m;
 }
 
 // Ends where it is seen that the mesh does not fit.
@@ -246,6 +250,7 @@ Model meshWithin(const CadShape& cad, const CadMeshing& meshing, const MeshEstim
                  const std::function<void(double)>& report) {
   constexpr int kTries = 3;
   constexpr double kMargin = 0.9, kFinest = 0.25;
+  const double begin_s = processorTime_s();
   double finer = 1;
   for (int i = 1;; ++i) {
     CadProgress progress(report, kEstimatePart, kMeshPart);
@@ -255,7 +260,9 @@ Model meshWithin(const CadShape& cad, const CadMeshing& meshing, const MeshEstim
     const CadReading& reading = *model.reading.cad;
     if (i == kTries || reading.error_m <= meshing.deflection_m + reading.tolerance_m) return model;
     finer *= std::max(kFinest, kMargin * meshing.deflection_m / reading.error_m);
-    if (!estimate.fits(finer * meshing.deflection_m, most)) return model;
+    const MeshLimits left{most.triangles, most.time_s - (processorTime_s() - begin_s)};
+    if (!estimate.fits(finer * meshing.deflection_m, left)) return model;
+    if (!meshing.asked && estimate.work(finer * meshing.deflection_m) > kUnaskedWork) return model;
   }
 }
 
@@ -266,12 +273,15 @@ Model meshCad(const CadShape& cad, const CadMeshing& meshing, const std::functio
   try {
     BRepTools::Clean(cad.shape);
     const MeshLimits most{most_triangles};
+    const double begin_s = processorTime_s();
     const MeshEstimate estimate = estimateMesh(cad.shape, meshing, most, report);
     CadMeshing fitting = meshing;
-    const bool unasked = meshing.deflection_m == CadMeshing{}.deflection_m;
-    if (unasked) fitting.deflection_m = estimate.finestThatFits_m(meshing.deflection_m, {most_triangles, kUnasked_s});
+    while (!meshing.asked && estimate.work(fitting.deflection_m) > kUnaskedWork &&
+           fitting.deflection_m < kMaxDeflection_m)
+      fitting.deflection_m *= 2;
     requireFits(estimate, fitting, most);
-    Model model = meshWithin(cad, fitting, estimate, most, report);
+    const double left_s = most.time_s - (processorTime_s() - begin_s);
+    Model model = meshWithin(cad, fitting, estimate, {most_triangles, left_s}, report);
     if (fitting.deflection_m != meshing.deflection_m) model.warnings.push_back(coarserWarning(estimate, fitting));
     return model;
   } catch (const Standard_Failure& failure) {

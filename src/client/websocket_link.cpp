@@ -124,6 +124,8 @@ class WebsocketLink : public Link {
   void fail(const std::exception_ptr& error) {
     try {
       std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+      finish("out of memory");  // short enough to need none
     } catch (const std::exception& why) {
       finish("the connection to " + address_.text() + " is lost: " + why.what());
     }

@@ -119,6 +119,7 @@ class HttpServer::Impl {
     listener_.start({[this](ConnectionPointer connection) { return serve(std::move(connection)); },
                      [this](const std::string& peer) { logCrowdedOut(peer); },
                      [this](const std::string& peer, const std::string& why) {
+                       if (why.empty()) return traffic_.refuse(RefusedBecause::kHandshake);  // a probe, say
                        logRefused(peer, RefusedBecause::kHandshake, "no TLS 1.3 handshake: " + why);
                      }});
     pages_.start();
@@ -164,8 +165,10 @@ class HttpServer::Impl {
       head.body_limit(boost::none);  // files have a limit of their own
       connection->stream.tcp().expires_after(kRequestTimeout);
       auto [no_head, head_bytes] = co_await http::async_read_header(connection->stream, buffer, head, kAwait);
+      if (no_head == beast::error::timeout && first && buffer.size() == 0)
+        co_return traffic_.refuse(RefusedBecause::kSilent);
       if (no_head == beast::error::timeout && first)
-        co_return logRefused(connection->peer, RefusedBecause::kSilent, "it has asked for nothing in time");
+        co_return logRefused(connection->peer, RefusedBecause::kSilent, "it has not asked to the end in time");
       if (no_head) co_return co_await refuse(connection, refusalOf(no_head));
       if (isUpload(viewOf(head.get().target()))) {
         const bool goes_on = co_await uploads_.serve(connection, buffer, head);

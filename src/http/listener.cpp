@@ -138,7 +138,9 @@ asio::awaitable<bool> Listener::shakeHands(Connection& connection) {
   if (tls == nullptr) co_return true;
   connection.stream.tcp().expires_after(settings_.handshake);
   auto [error] = co_await tls->async_handshake(asio::ssl::stream_base::server, kAwait);
-  if (error && !stopping_) callbacks_.no_handshake(connection.peer, error.message());
+  const bool gone = error == asio::error::eof || error == asio::error::connection_reset ||
+                    error == asio::ssl::error::stream_truncated;
+  if (error && !stopping_) callbacks_.no_handshake(connection.peer, gone ? "" : error.message());
   co_return !error;
 }
 

@@ -30,7 +30,7 @@ struct ListenerCallbacks {
   std::function<boost::asio::awaitable<void>(ConnectionPointer)> serve;
   /// A connection beyond max_connections has been closed. Called once in ten seconds: who is crowded out tries again.
   std::function<void(const std::string& peer)> crowded_out;
-  /// A connection has been closed without a TLS handshake, for this reason.
+  /// A connection has been closed without a TLS handshake, for this reason; empty: the peer has closed it.
   std::function<void(const std::string& peer, const std::string& why)> no_handshake;
 };
 

@@ -18,6 +18,7 @@ constexpr const char* kCadProgram = "hl-cad";
 constexpr const char* kNoCadProgram =
     "CAD files are read by hl-cad, which is not here: install the package hl-cad, or run scripts/deps --cad and "
     "scripts/build";
+constexpr const char *kAsked = "as-asked", *kUnasked = "or-coarser";
 constexpr std::array kCadEndings{".step", ".stp", ".iges", ".igs", ".brep"};
 
 double numberOf(const std::string& word, double least, double most) {
@@ -36,14 +37,17 @@ bool readsCad(const std::string& ending) {
 }
 
 std::vector<std::string> wordsOf(const std::string& ending, const CadMeshing& meshing) {
-  return {"--read", ending, fmt::format("{}", meshing.deflection_m), fmt::format("{}", meshing.angle_rad)};
+  return {"--read", ending, fmt::format("{}", meshing.deflection_m), fmt::format("{}", meshing.angle_rad),
+          meshing.asked ? kAsked : kUnasked};
 }
 
 CadTask cadTaskOf(const std::vector<std::string>& words) {
-  if (words.size() != 4 || words[0] != "--read" || !readsCad(words[1]))
+  const bool sound = words.size() == 5 && (words[4] == kAsked || words[4] == kUnasked);
+  if (!sound || words[0] != "--read" || !readsCad(words[1]))
     throw Error("hl-cad reads CAD files for hl, which starts it by itself: try hl touch part.step");
   return {words[1],
-          {numberOf(words[2], kMinDeflection_m, kMaxDeflection_m), numberOf(words[3], kMinAngle_rad, kMaxAngle_rad)}};
+          {numberOf(words[2], kMinDeflection_m, kMaxDeflection_m), numberOf(words[3], kMinAngle_rad, kMaxAngle_rad),
+           words[4] == kAsked}};
 }
 
 SceneModel readCad(int descriptor, const std::string& name, const CadTask& task, const IsolationLimits& limits,

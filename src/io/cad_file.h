@@ -17,6 +17,7 @@ namespace hl {
 struct CadMeshing {
   double deflection_m = 2e-6;  ///< distance between an edge of a triangle and its curve
   double angle_rad = 0.1;      ///< between neighbouring pieces of a curve
+  bool asked = false;          ///< for this deflection; else it may be coarser, of what would take too long
   bool operator==(const CadMeshing&) const = default;
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -42,8 +44,9 @@ using Children = std::vector<std::vector<std::size_t>>;
 
 // Walks without recursion, as a chain of nodes may be as long as the file.
 void checkTree(const Children& children) {
-  constexpr std::size_t kDeepest = 1000;
+  constexpr std::size_t kDeepest = 1000, kMostShown = 1'000'000;
   std::vector<std::size_t> height(children.size(), 0);  // nodes below and itself; 0: not known
+  std::vector<std::size_t> shown(children.size(), 1);   // with those below, as often as they are there
   std::vector<bool> open(children.size(), false);
   const auto refuse = [](std::size_t node, const char* why) { throw Error(fmt::format("nodes/{}: {}", node, why)); };
   for (std::size_t root = 0; root < children.size(); ++root) {
@@ -59,7 +62,11 @@ void checkTree(const Children& children) {
         continue;
       }
       std::size_t most = 0;
-      for (const std::size_t child : children[node]) most = std::max(most, height[child]);
+      for (const std::size_t child : children[node]) {
+        most = std::max(most, height[child]);
+        shown[node] += shown[child];
+        if (shown[node] > kMostShown) refuse(node, "the nodes below it are there more than a million times");
+      }
       if (most >= kDeepest) refuse(node, "the nodes below it are nested too deep");
       height[node] = most + 1;
       open[node] = false;
@@ -179,6 +186,8 @@ void checkGltfNodes(const json::value& file) {
     const std::vector<double> rotation = node.numbers("rotation", 4);
     if (!rotation.empty() && std::all_of(rotation.begin(), rotation.end(), [](double x) { return x == 0; }))
       node.refuse("its rotation is 0 0 0 0, which is none");
+    const double squares = std::inner_product(rotation.begin(), rotation.end(), rotation.begin(), 0.0);
+    if (!rotation.empty() && !std::isnormal(squares)) node.refuse("its rotation is too small or too large to be one");
   }
   checkTree(children);
   root.reference("scene", "scenes", scenes.size());

@@ -6,6 +6,10 @@ namespace hl {
 
 namespace json = boost::json;
 
+GltfAdditions::GltfAdditions(json::object& root) : root_(root) {
+  for (const char* list : {"accessors", "bufferViews", "buffers"}) root_.emplace(list, json::array());
+}
+
 std::size_t GltfAdditions::add(std::span<const float> floats, const std::string& type, std::size_t parts) {
   constexpr std::int64_t kFloat = 5126;
   json::array& accessors = root_["accessors"].as_array();

@@ -10,8 +10,8 @@ namespace hl {
 
 class GltfAdditions {
  public:
-  /// `root` outlives it, and its lists have been checked.
-  explicit GltfAdditions(boost::json::object& root) : root_(root) {}
+  /// `root` outlives it, and its lists have been checked. Those that it lacks are added, empty.
+  explicit GltfAdditions(boost::json::object& root);
 
   /// The number of a new accessor of floats; `type`: "VEC3", of `parts` numbers.
   std::size_t add(std::span<const float> floats, const std::string& type, std::size_t parts);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -101,19 +102,18 @@ class Poser {
     const std::vector<GltfItem> nodes = root.list("nodes"), meshes = root.list("meshes");
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const std::optional<std::size_t> mesh = nodes[i].reference("mesh", "meshes", meshes.size());
-      if (mesh) poseNode(i, nodes[i], meshes[*mesh]);
+      if (mesh) poseNode(i, nodes[i], *mesh, meshes[*mesh]);
     }
     const std::size_t first = meshes.size();
-    for (std::size_t i = 0; i < posed_.size(); ++i) {
-      json::object& node = file_.as_object()["nodes"].as_array()[posed_[i].first].as_object();
-      node["mesh"] = first + i;
-      file_.as_object()["meshes"].as_array().push_back(std::move(posed_[i].second));
-    }
+    for (const auto& [node, posed] : posed_nodes_)
+      file_.as_object()["nodes"].as_array()[node].as_object()["mesh"] = first + posed;
+    for (json::object& posed : posed_) file_.as_object()["meshes"].as_array().push_back(std::move(posed));
     return leaveOut();
   }
 
  private:
-  void poseNode(std::size_t number, const GltfItem& node, const GltfItem& mesh) {
+  // Nodes without a skin share a mesh of the same weights.
+  void poseNode(std::size_t number, const GltfItem& node, std::size_t mesh_number, const GltfItem& mesh) {
     Bending by{weightsOf(node), nullptr, {}};
     if (by.weights.empty()) by.weights = weightsOf(mesh);
     const std::optional<std::size_t> skin = node.whole("skin");
@@ -127,11 +127,18 @@ class Poser {
         return;
       }
     }
+    const auto known = morphed_.find({mesh_number, by.weights});
+    if (!skin && known != morphed_.end()) {
+      posed_nodes_[number] = known->second;
+      return;
+    }
     json::object posed = mesh.object();
     const std::vector<GltfItem> primitives = mesh.list("primitives");
     for (std::size_t i = 0; i < primitives.size(); ++i)
       posePrimitive(by, primitives[i], posed["primitives"].as_array()[i].as_object());
-    posed_.emplace_back(number, std::move(posed));
+    posed_nodes_[number] = posed_.size();
+    if (!skin) morphed_[{mesh_number, by.weights}] = posed_.size();
+    posed_.push_back(std::move(posed));
   }
 
   // A skin without matrices has those of 1 (3.7.3.1).
@@ -177,7 +184,8 @@ class Poser {
     if (!attributesOf(primitive).has("POSITION")) return {};
     const std::optional<VertexColumns> positions = columnsOf(attributesOf(primitive), "POSITION", {});
     if (!positions) {
-      warnings_.push_back(fmt::format("{}: its numbers cannot be had, and {}", primitive.place(), kLeftOut));
+      if (said_.insert(primitive.place()).second)
+        warnings_.push_back(fmt::format("{}: its numbers cannot be had, and {}", primitive.place(), kLeftOut));
       return {};
     }
     const std::optional<VertexColumns> normals = columnsOf(attributesOf(primitive), "NORMAL", {});
@@ -273,9 +281,12 @@ class Poser {
   const GltfAccessors& accessors_;
   GltfAdditions& additions_;
   std::vector<std::string>& warnings_;
-  Matrices matrices_;                                        // of nodes; empty until a skin asks
-  std::map<std::size_t, Matrices> joints_;                   // of skins
-  std::vector<std::pair<std::size_t, json::object>> posed_;  // nodes, with the mesh that each gets
+  Matrices matrices_;                                                           // of nodes; empty until a skin asks
+  std::map<std::size_t, Matrices> joints_;                                      // of skins
+  std::vector<json::object> posed_;                                             // meshes
+  std::map<std::size_t, std::size_t> posed_nodes_;                              // nodes, with the posed mesh of each
+  std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> morphed_;  // posed meshes, by mesh and weights
+  std::set<std::string> said_;                                                  // primitives
 };
 
 }  // namespace

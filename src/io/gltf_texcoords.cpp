@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "io/check_gltf.h"
@@ -52,10 +53,18 @@ std::vector<PicturePlace> placesOfMaterials(const json::value& file) {
   return places;
 }
 
-// What has been applied.
-void forget(json::value& material) {
-  json::value& surface = material.as_object()["pbrMetallicRoughness"];
-  json::object& texture = surface.as_object()["baseColorTexture"].as_object();
+// Haptic textures lie over the first texture coordinates as they are.
+bool hasHapticTextures(const json::value& file) {
+  const json::value* const extensions = file.as_object().if_contains("extensions");
+  return extensions != nullptr && extensions->is_object() && extensions->as_object().contains("MPEG_haptic_material");
+}
+
+// What has been applied; a picture that could not be placed goes.
+void forget(json::value& material, bool placed) {
+  json::object& surface = material.as_object()["pbrMetallicRoughness"].as_object();
+  if (!placed) surface.erase("baseColorTexture");
+  if (!placed) return;
+  json::object& texture = surface["baseColorTexture"].as_object();
   texture.erase("texCoord");
   if (json::value* const extensions = texture.if_contains("extensions")) extensions->as_object().erase(kTransform);
 }
@@ -85,14 +94,15 @@ class PicturePlacer {
         const auto material = primitives[k].reference("material", "materials", places.size());
         if (!material || places[*material].isFirstAsItIs()) continue;
         json::object& mesh = file_.as_object()["meshes"].as_array()[i].as_object();
-        place(primitives[k], places[*material], mesh["primitives"].as_array()[k].as_object());
+        if (!place(primitives[k], places[*material], mesh["primitives"].as_array()[k].as_object()))
+          unplaced_.insert(*material);
       }
     }
     return forgetPlaces(places);
   }
 
  private:
-  void place(const GltfItem& primitive, const PicturePlace& of_picture, json::object& changed) {
+  bool place(const GltfItem& primitive, const PicturePlace& of_picture, json::object& changed) {
     const std::string set = fmt::format("TEXCOORD_{}", of_picture.set);
     const GltfItem attributes = *primitive.child("attributes");
     const auto number = attributes.reference(set, "accessors", accessors_.size());
@@ -101,17 +111,18 @@ class PicturePlacer {
     if (!coordinates || accessors_[*number].type != "VEC2") {
       warnings_.push_back(
           fmt::format("{}: has no {} that can be read, over which its picture lies", primitive.place(), set));
-      return;
+      return false;
     }
     changed["attributes"].as_object()["TEXCOORD_0"] =
         additions_.add(moved(*coordinates, of_picture.transform), "VEC2", 2);
+    return true;
   }
 
   bool forgetPlaces(const std::vector<PicturePlace>& places) {
     bool any = false;
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (places[i].isFirstAsItIs()) continue;
-      forget(file_.as_object()["materials"].as_array()[i]);
+      forget(file_.as_object()["materials"].as_array()[i], !unplaced_.contains(i));
       any = true;
     }
     return any;
@@ -121,13 +132,14 @@ class PicturePlacer {
   const GltfAccessors& accessors_;
   GltfAdditions& additions_;
   std::vector<std::string>& warnings_;
+  std::set<std::size_t> unplaced_;  // materials
 };
 
 }  // namespace
 
 bool placePictures(json::value& file, const GltfAccessors& accessors, GltfAdditions& additions,
                    std::vector<std::string>& warnings) {
-  return PicturePlacer(file, accessors, additions, warnings).place();
+  return !hasHapticTextures(file) && PicturePlacer(file, accessors, additions, warnings).place();
 }
 
 }  // namespace hl

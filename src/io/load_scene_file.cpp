@@ -218,6 +218,7 @@ CadMeshing SceneFile::meshingOf(const proto::SceneObject& object, const std::str
   const std::string at = where + ".meshing";
   if (!readsCad(endingOf(object.file()))) fail(at, at + " is of CAD files: step, iges and brep");
   const proto::Meshing& in = object.meshing();
+  meshing.asked = meshing.asked || in.deflection_m() != 0;
   if (in.deflection_m() != 0)
     meshing.deflection_m = decoder_.checked(in.deflection_m(), kMinDeflection_m, kMaxDeflection_m, at + ".deflectionM");
   if (in.angle_rad() != 0)

@@ -19,6 +19,7 @@ namespace hl {
 
 namespace {
 
+constexpr int kDeepestInlined = 500;             // elements, as of one document
 constexpr int kMostInlines = 16;                 // one within the other
 constexpr std::size_t kMostFiles = 10'000;       // each as often as it is inlined
 constexpr std::size_t kMostInlined = 1'000'000;  // nodes
@@ -66,21 +67,22 @@ class Inliner {
   Inliner(bool alone, std::vector<std::string>& warnings) : alone_(alone), warnings_(warnings) {}
 
   // In the document at `path`.
-  void expand(X3dTree& parent, const std::string& path, int nested) {
+  void expand(X3dTree& parent, const std::string& path, int nested, int depth = 0) {
+    if (depth > kDeepestInlined) throw Error("its nodes are nested too deep");
     X3dTree expanded(parent.data());
     for (X3dNode& child : parent) {
       if (child.first == "Inline") {
-        expanded.push_back({"Group", groupOf(child, path, nested)});
+        expanded.push_back({"Group", groupOf(child, path, nested, depth + 1)});
         continue;
       }
-      if (isX3dElement(child)) expand(child.second, path, nested);
-      expanded.push_back(child);
+      if (isX3dElement(child)) expand(child.second, path, nested, depth + 1);
+      expanded.push_back({child.first, X3dTree()})->second.swap(child.second);
     }
     parent.swap(expanded);
   }
 
  private:
-  X3dTree groupOf(const X3dNode& inlined, const std::string& path, int nested) {
+  X3dTree groupOf(const X3dNode& inlined, const std::string& path, int nested, int depth) {
     X3dTree group;
     for (const char* name : {"DEF", "USE", "visible", "containerField"}) {
       if (const auto text = x3dField(inlined, name)) setX3dField(group, name, *text);
@@ -91,7 +93,7 @@ class Inliner {
     if (nested >= kMostInlines || ++files_ > kMostFiles)
       throw Error("its Inline nodes are too many or nested too deep, or a file contains itself");
     X3dTree tree = parseX3d(withoutPrototypes(contentOf(*file).value_or(""), warnings_));
-    expand(tree, *file, nested + 1);
+    expand(tree, *file, nested + 1, depth);
     if (const X3dTree* const scene = sceneOf(tree)) add(*scene, group);
     return group;
   }

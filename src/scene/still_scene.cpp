@@ -7,8 +7,9 @@ namespace hl {
 
 const Snapshot& StillScene::of(const std::shared_ptr<const Snapshot>& scene) {
   if (scene_ != scene) {
-    scene_ = scene;
-    copy();
+    clear();
+    copy(*scene);
+    scene_ = scene;  // when the copy is whole
   }
   if (!copy_) return *scene_;
   std::size_t number = 0;
@@ -18,11 +19,15 @@ const Snapshot& StillScene::of(const std::shared_ptr<const Snapshot>& scene) {
   return *copy_;
 }
 
-void StillScene::copy() {
+void StillScene::clear() {
+  scene_.reset();
   copy_.reset();
   standing_.clear();
-  if (movingBodies(*scene_) == 0) return;
-  copy_ = std::make_unique<Snapshot>(*scene_);
+}
+
+void StillScene::copy(const Snapshot& scene) {
+  if (movingBodies(scene) == 0) return;
+  copy_ = std::make_unique<Snapshot>(scene);
   for (Instance& instance : copy_->instances) {
     if (!instance.movesAsBody()) continue;
     const BodyPoses& moving = *instance.body->poses;

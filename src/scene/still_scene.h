@@ -15,9 +15,11 @@ class StillScene {
   /// `scene`, whose bodies stand where they are now; valid until the next call. A copy of its lists is made when
   /// another scene is given; the shapes are shared.
   const Snapshot& of(const std::shared_ptr<const Snapshot>& scene);
+  /// Keeps no scene until it is asked again.
+  void clear();
 
  private:
-  void copy();
+  void copy(const Snapshot& scene);
 
   std::shared_ptr<const Snapshot> scene_;
   std::unique_ptr<Snapshot> copy_;                    // null: no body of it moves

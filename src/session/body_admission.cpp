@@ -1,5 +1,7 @@
 #include "session/body_admission.h"
 
+#include <algorithm>
+
 namespace hl {
 
 // Who brings no bodies is not refused for those of others.
@@ -9,6 +11,11 @@ void BodyAdmission::check(const WorldParts& parts, const WorldParts& others, con
   all += others;
   all += parts;
   checkBodiesOfAll(all, {limits.bodies, limits.joints}, devices_);
+}
+
+void BodyAdmission::reserve(const WorldParts& base) {
+  base_.bodies = std::max(base_.bodies, base.bodies);
+  base_.joints = std::max(base_.joints, base.joints);
 }
 
 void BodyAdmission::checkBase(const WorldParts& base, const WorldParts& clients) const {

@@ -19,6 +19,8 @@ class BodyAdmission {
   /// The same of another base beside those of all clients; the limits are those of a world.
   void checkBase(const WorldParts& base, const WorldParts& clients) const;
   void setBase(const WorldParts& base) { base_ = base; }
+  /// Another base will take the place of this one: from now on as much counts as the larger of both has.
+  void reserve(const WorldParts& base);
 
  private:
   WorldParts base_;

@@ -76,14 +76,14 @@ std::shared_ptr<ClientScene> ClientTable::takeReplaced(const std::shared_ptr<Cli
   return std::exchange(client->entry.replaced, nullptr);
 }
 
-void ClientTable::admitBase(const WorldParts& base) const {
+void ClientTable::admitBase(const WorldParts& base) {
   const std::lock_guard lock(mutex_);
   admission_.checkBase(base, clients_.partsOfAll());
+  admission_.reserve(base);
 }
 
 void ClientTable::setBase(const WorldParts& base) {
   const std::lock_guard lock(mutex_);
-  admission_.checkBase(base, clients_.partsOfAll());
   admission_.setBase(base);
 }
 

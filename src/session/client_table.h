@@ -60,8 +60,9 @@ class ClientTable {
   std::shared_ptr<ClientScene> takeReplaced(const std::shared_ptr<ClientScene>& client);
   /// Throws hl::Error where the bodies and joints of another base and those of all clients, also of those that have
   /// gone and left their objects, would be more than a world can have.
-  void admitBase(const WorldParts& base) const;
-  /// As admitBase(): when it does not throw, this is the base for all who come.
+  /// When it does not throw, there is room for that base until setBase(), whoever comes meanwhile.
+  void admitBase(const WorldParts& base);
+  /// This base is shown.
   void setBase(const WorldParts& base);
   /// There is something else that the next scene is to show.
   void change();

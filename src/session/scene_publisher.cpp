@@ -44,7 +44,6 @@ void ScenePublisher::stop() {
 }
 
 bool ScenePublisher::replaceBase(const std::shared_ptr<const Snapshot>& base) {
-  clients_.setBase(partsOf(*base));
   const std::uint64_t number = base_.replace(base);
   clients_.change();
   return base_.awaitShown(number);

@@ -35,8 +35,8 @@ class ScenePublisher {
   const ClientTable& clients() const { return clients_; }
 
   /// Shows `base` in the place of the one before, fitted to the devices anew, as soon as the loops have taken the scene
-  /// before. Returns when it is shown; false: the publisher has stopped before. Throws hl::Error, and changes nothing,
-  /// as ClientTable::admitBase(). Any thread but the publisher's own.
+  /// before. Returns when it is shown; false: the publisher has stopped before. ClientTable::admitBase() has been
+  /// asked. Any thread but the publisher's own.
   bool replaceBase(const std::shared_ptr<const Snapshot>& base);
 
   /// Another value for a surface of a volume of the base, by its key in the scene that is shown; 0: the only one. It is

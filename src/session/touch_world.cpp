@@ -94,15 +94,27 @@ void TouchWorld::stop() {
   publisher_.stop();
 }
 
+// While it lives hands may be held aside; then they are free, however that came.
+class TouchWorld::HandsAside {
+ public:
+  explicit HandsAside(TouchWorld& world) : world_(world) {}
+  ~HandsAside() { world_.freeHands(); }
+  HandsAside(const HandsAside&) = delete;
+  HandsAside& operator=(const HandsAside&) = delete;
+
+ private:
+  TouchWorld& world_;
+};
+
 void TouchWorld::replaceBase(const std::shared_ptr<const Snapshot>& base) {
   checkHandsAtBodies(*base, devices_.size());
   worldOf(*base);  // one that cannot be made is refused here
-  clients().admitBase(partsOf(*base));
   MemoryShare share(memory_);
   share.take(bytesOfBase(*base));
-  const bool shown = showBase(base);
-  freeHands();
-  if (!shown) throw Error("the server is closing");
+  clients().admitBase(partsOf(*base));
+  const HandsAside hands(*this);
+  if (!showBase(base)) throw Error("the server is closing");
+  clients().setBase(partsOf(*base));
   base_memory_ = std::move(share);
 }
 
@@ -125,9 +137,9 @@ bool TouchWorld::showBase(const std::shared_ptr<const Snapshot>& base) {
 
 void TouchWorld::fitHands(const Box& bounds, double most_s) {
   for (const auto& device : devices_) {
-    if (device->live().isFitted()) continue;
+    if (device->live().isPlaced()) continue;
     device->moveHandAside(bounds, most_s);
-    device->live().refit(bounds);
+    device->live().fitToOthers(bounds);
   }
 }
 

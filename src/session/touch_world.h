@@ -83,6 +83,8 @@ class TouchWorld {
   void describe(std::uint32_t device, proto::ClientState& state);
 
  private:
+  class HandsAside;
+
   bool moveHandsAside(const Box& bounds, double most_s);
   bool showBase(const std::shared_ptr<const Snapshot>& base);
 

@@ -81,7 +81,9 @@ void HandMover::follow(const Commands& commands) {
     exploring_ = *commands.explore;
     exploration_.begin();
   }
-  if (aside_.top_D >= 0) return holdAside();
+  const bool aside = aside_.top_D >= 0;
+  if (aside || !exploring_) still_.clear();
+  if (aside) return holdAside();
   const Workspace workspace = live_.workspace();
   if (commands.goal_W) {
     exploring_ = false;

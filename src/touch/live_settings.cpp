@@ -11,7 +11,8 @@ LiveSettings::LiveSettings(const TouchSettings& settings, const DeviceInfo& devi
       world_per_device_(settings.world_per_device),
       faults_(settings.faults),
       ledger_(settings.ledger),
-      fitted_(settings.world_per_device || !bounds.empty()) {
+      fitted_(settings.world_per_device || !bounds.empty()),
+      placed_(!bounds.empty()) {
   commands_.workspace = fitted(bounds);
   commands_.radius_W = radius_D_ * commands_.workspace.world_per_device;
   setSurfaces(settings.surfaces);
@@ -52,7 +53,7 @@ void LiveSettings::setWorkspace(const Workspace& workspace) {
   if (!workspace.valid()) return;
   const std::lock_guard lock(mutex_);
   restartWith(workspace, radiusIn(workspace, commands_.radius_W / commands_.workspace.world_per_device));
-  fitted_ = true;
+  fitted_ = placed_ = true;
 }
 
 double LiveSettings::radiusIn(const Workspace& workspace, double radius_D) const {
@@ -68,6 +69,7 @@ void LiveSettings::setRadius(double radius_W) {
 
 void LiveSettings::fit(const Box& bounds) {
   const std::lock_guard lock(mutex_);
+  placed_ = placed_ || !bounds.empty();
   if (fitted_ || bounds.empty()) return;
   const Workspace workspace = Workspace::fit(bounds, side_D_);
   restartWith(workspace, radiusIn(workspace, radius_D_));
@@ -82,13 +84,21 @@ void LiveSettings::refit(const Box& bounds) {
   if (bounds.empty()) return;
   const Workspace workspace = fitted(bounds);
   const std::lock_guard lock(mutex_);
-  fitted_ = true;
+  fitted_ = placed_ = true;
   restartWith(workspace, radius_D_ * workspace.world_per_device);
 }
 
-bool LiveSettings::isFitted() const {
+void LiveSettings::fitToOthers(const Box& bounds) {
   const std::lock_guard lock(mutex_);
-  return fitted_;
+  if (placed_ || bounds.empty()) return;
+  const Workspace workspace = fitted(bounds);
+  restartWith(workspace, radiusIn(workspace, radius_D_));
+  placed_ = fitted_ = true;
+}
+
+bool LiveSettings::isPlaced() const {
+  const std::lock_guard lock(mutex_);
+  return placed_;
 }
 
 MaterialOverride LiveSettings::surfaces() const {

@@ -41,8 +41,11 @@ class LiveSettings {
   MaterialOverride surfaces() const;
   Workspace workspace() const;
   double radius_W() const;
-  /// Whether the workspace has been set, or fitted to a scene.
-  bool isFitted() const;
+  /// Objects of other servers are about to be shown. As fit(), where nobody has placed the workspace; of a scale that
+  /// was given it is placed alone.
+  void fitToOthers(const Box& bounds);
+  /// Whether the workspace has been set, or a scene of this server's own has been shown.
+  bool isPlaced() const;
   /// How high a scene of these bounds would reach at the hand, m above its origin, were it fitted.
   double topOfFitted_D(const Box& bounds) const;
   double side_D() const { return side_D_; }  ///< m, of a model that is fitted
@@ -70,7 +73,8 @@ class LiveSettings {
 
   mutable std::mutex mutex_;  // of what follows; the loops never see it
   ProxyCommands commands_;
-  bool fitted_ = false;  // the workspace has been set, or fitted to a scene
+  bool fitted_ = false;  // the workspace has been set, or fitted to a scene, or its scale was given
+  bool placed_ = false;  // the workspace has been set, or a scene has been shown
   bool radius_set_ = false;
   Latest<ProxyCommands> commands_for_proxy_{ProxyCommands{}};
   BodyCommandQueue body_commands_;

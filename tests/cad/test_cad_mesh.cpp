@@ -126,7 +126,7 @@ TEST(CadMesh, TooManyTrianglesAreRefusedWithADeflectionThatFits) {
   const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(50).Shape();
   std::string line;
   try {
-    meshOf(ball, {1e-6, 0.01}, 20'000);
+    meshOf(ball, {1e-6, 0.01, true}, 20'000);
   } catch (const Error& error) {
     line = error.what();
   }
@@ -134,7 +134,20 @@ TEST(CadMesh, TooManyTrianglesAreRefusedWithADeflectionThatFits) {
   ASSERT_NE(line.find(kWord), std::string::npos) << line;
   const double deflection_m = std::stod(line.substr(line.find(kWord) + kWord.size()));
   EXPECT_GT(deflection_m, 1e-6);
-  EXPECT_LT(meshOf(ball, {deflection_m, 0.1}, 20'000).triangles.size(), 30'000u);
+  EXPECT_LT(meshOf(ball, {deflection_m, 0.1, true}, 20'000).triangles.size(), 30'000u);
+}
+
+// A ball of 10 m would have 50 million triangles: that is seen at once, and where nobody has asked for them there are
+// fewer.
+TEST(CadMesh, WhatNobodyHasAskedForIsAsFineAsItFits) {
+  const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(1e4).Shape();
+  EXPECT_THROW(meshOf(ball, {2e-6, 0.1, true}), Error);
+  const Model model = meshOf(BRepPrimAPI_MakeSphere(100).Shape());
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("--deflection chooses another"), std::string::npos);
+  EXPECT_GT(model.triangles.size(), 50'000u);
+  EXPECT_LT(model.triangles.size(), 400'000u);
+  EXPECT_GT(model.reading.cad->deflection_m, CadMeshing{}.deflection_m);
 }
 
 // Where the proxy comes to rest as the finger goes from one place to another.
