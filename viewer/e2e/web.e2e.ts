@@ -165,7 +165,7 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
     const shown_ms = await page.evaluate(() => performance.now());
     await setHidden(false);
     await steps(stopped);
-    expect(await page.title()).toBe("HL");
+    await expect.poll(() => page.title()).toBe("HL");
     const [time_s, now_ms] = await page.evaluate(() => [window.__hl.time_s!, performance.now()]);
     expect(time_s - stopped, "what it missed is left out").toBeLessThan((now_ms - shown_ms) / 1e3 + 0.1);
   });
