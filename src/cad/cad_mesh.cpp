@@ -57,8 +57,11 @@ double growthOf(const TopoDS_Face& face) {
 }
 
 struct FaceEstimate {
-  double triangles = 0;  // of the coarse mesh
+  double coarse_triangles = 0;  // of the coarse mesh
   double growth = 1;
+
+  /// Where the deflection is 1 / `ratio` of the coarse one.
+  double triangles(double ratio) const { return coarse_triangles * std::pow(ratio, growth); }
 };
 
 // Of a mesh.
@@ -75,19 +78,19 @@ struct MeshEstimate {
 
   double triangles(double deflection_m) const {
     double sum = 0;
-    for (const FaceEstimate& face : faces) sum += face.triangles * std::pow(coarse_m / deflection_m, face.growth);
+    for (const FaceEstimate& face : faces) sum += face.triangles(coarse_m / deflection_m);
     return sum;
   }
   double time_s(double deflection_m) const { return coarse_s * work(deflection_m) / std::max(1.0, work(coarse_m)); }
   bool fits(double deflection_m, const MeshLimits& most) const {
     return triangles(deflection_m) <= static_cast<double>(most.triangles) && time_s(deflection_m) <= most.time_s;
   }
-  // In triangles of small faces. Of a face of n it is n (1 + n / 70 000): measured of a sphere of 18 000 to 590 000.
+  /// In triangles of small faces. Of a face of n it is n (1 + n / 70 000): measured of a sphere of 18 000 to 590 000.
   double work(double deflection_m) const {
     constexpr double kOfTwiceTheTime = 70'000;
     double sum = 0;
     for (const FaceEstimate& face : faces) {
-      const double of_face = face.triangles * std::pow(coarse_m / deflection_m, face.growth);
+      const double of_face = face.triangles(coarse_m / deflection_m);
       sum += of_face * (1 + of_face / kOfTwiceTheTime);
     }
     return sum;
@@ -97,7 +100,7 @@ struct MeshEstimate {
     while (!fits(deflection_m, most) && deflection_m < kMaxDeflection_m) deflection_m *= 2;
     return deflection_m;
   }
-  /// The same with the growth from a mesh still coarser to this one: where angles decide, it is less.
+  /// As fits(), with the growth from a mesh still coarser to this one: where angles decide, it is less.
   bool fitsAsItGrew(const MeshEstimate& coarser, double deflection_m, const MeshLimits& most) const {
     const double growth =
         std::log(coarseTriangles() / coarser.coarseTriangles()) / std::log(coarser.coarse_m / coarse_m);
@@ -156,8 +159,7 @@ void requireFits(const MeshEstimate& estimate, const CadMeshing& meshing, const 
   if (estimate.fits(meshing.deflection_m, most)) return;
   throw Error(fmt::format(
       "makes about {:.2g} million triangles at a deflection of {:.2g} m, in {:.0f} s; at most {:.2g} "
-      "million in {:.0f} s "
-      "can be: --deflection {:.2g} fits",
+      "million in {:.0f} s can be: --deflection {:.2g} fits",
       1e-6 * estimate.triangles(meshing.deflection_m), meshing.deflection_m, estimate.time_s(meshing.deflection_m),
       1e-6 * static_cast<double>(most.triangles), most.time_s, estimate.finestThatFits_m(meshing.deflection_m, most)));
 }

@@ -20,8 +20,7 @@ using HttpResponse = boost::beast::http::response<boost::beast::http::string_bod
 /// Why a request without the right token is refused, and what to do.
 inline constexpr const char* kAsksForToken =
     "this server asks for its token, and this one is missing or wrong: a browser opens the page once with "
-    "/?token=TOKEN, "
-    "a program sends 'Authorization: Bearer TOKEN'";
+    "/?token=TOKEN, a program sends 'Authorization: Bearer TOKEN'";
 
 using HttpFileResponse = boost::beast::http::response<boost::beast::http::file_body>;
 

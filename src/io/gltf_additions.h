@@ -15,7 +15,6 @@ class GltfAdditions {
 
   /// The number of a new accessor of floats; `type`: "VEC3", of `parts` numbers.
   std::size_t add(std::span<const float> floats, const std::string& type, std::size_t parts);
-  bool any() const { return !bytes_.empty(); }
   /// Adds the buffer. Called once, after all else.
   void finish();
 

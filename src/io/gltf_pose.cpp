@@ -12,6 +12,7 @@
 
 #include "io/check_gltf.h"
 #include "io/gltf_item.h"
+#include "io/gltf_lists.h"
 #include "io/gltf_nodes.h"
 
 namespace hl {
@@ -249,12 +250,8 @@ class Poser {
   bool leaveOut() {
     json::object& root = file_.as_object();
     bool changed = root.erase("skins") > 0;
-    for (json::value& node : listOf("nodes")) changed = node.as_object().erase("skin") > 0 || changed;
-    for (json::value& mesh : listOf("meshes")) {
-      if (json::value* const primitives = mesh.as_object().if_contains("primitives")) {
-        for (json::value& primitive : primitives->as_array()) changed = leaveOut(primitive.as_object()) || changed;
-      }
-    }
+    for (json::value& node : gltfList(root, "nodes")) changed = node.as_object().erase("skin") > 0 || changed;
+    forEachGltfPrimitive(root, [&](json::object& primitive) { changed = leaveOut(primitive) || changed; });
     if (changed) root.erase("animations");
     return changed;
   }
@@ -269,12 +266,6 @@ class Poser {
       changed = changed || erased;
     }
     return changed;
-  }
-
-  json::array& listOf(std::string_view name) {
-    static json::array none;
-    json::value* const list = file_.as_object().if_contains(name);
-    return list == nullptr ? none : list->as_array();
   }
 
   json::value& file_;

@@ -91,34 +91,43 @@ void appendTexcoord(Model& model, const aiMesh& mesh, unsigned vertex) {
   model.texcoords.emplace_back(has ? mesh.mTextureCoords[0][vertex].x : 0, has ? mesh.mTextureCoords[0][vertex].y : 0);
 }
 
-// Normals turn with the inverse transpose; a mirrored node keeps its winding, which does not matter to two-sided touch.
+// Where a vertex comes to be. Normals turn with the inverse transpose; a mirrored node keeps its winding, which does
+// not matter to two-sided touch.
+struct VertexPlace {
+  explicit VertexPlace(const BentVertex& to_scene)
+      : linear(to_scene.leftCols<3>()), offset(to_scene.col(3)), for_normals(linear.inverse().transpose()) {}
+
+  Mat3 linear;
+  Vec3 offset;
+  Mat3 for_normals;
+};
+
 Vec3 turnedNormal(const aiMesh& mesh, unsigned vertex, const Mat3& for_normals) {
   if (!mesh.HasNormals()) return Vec3::Zero();
   const Vec3 normal = (for_normals * vecOfAssimp(mesh.mNormals[vertex])).normalized();
   return normal.allFinite() ? normal : Vec3(Vec3::Zero());
 }
 
-void appendMesh(Model& model, const aiMesh& mesh, const Eigen::Matrix4d& to_world, std::uint16_t material) {
+// `place_of(i)` is the VertexPlace of the vertex i.
+template <typename PlaceOf>
+void appendMesh(Model& model, const aiMesh& mesh, std::uint16_t material, const PlaceOf& place_of) {
   const auto base = static_cast<std::uint32_t>(model.positions.size());
-  const Mat3 linear = to_world.topLeftCorner<3, 3>();
-  const Mat3 for_normals = linear.inverse().transpose();
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    model.positions.push_back(linear * vecOfAssimp(mesh.mVertices[i]) + to_world.topRightCorner<3, 1>());
-    model.normals.push_back(turnedNormal(mesh, i, for_normals));
+    const VertexPlace& place = place_of(i);
+    model.positions.push_back(place.linear * vecOfAssimp(mesh.mVertices[i]) + place.offset);
+    model.normals.push_back(turnedNormal(mesh, i, place.for_normals));
     appendTexcoord(model, mesh, i);
   }
   appendFaces(model, mesh, base, material);
 }
 
-void appendBent(Model& model, const aiMesh& mesh, const std::vector<BentVertex>& bent, std::uint16_t material) {
-  const auto base = static_cast<std::uint32_t>(model.positions.size());
-  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    const Mat3 linear = bent[i].leftCols<3>();
-    model.positions.push_back(linear * vecOfAssimp(mesh.mVertices[i]) + bent[i].col(3));
-    model.normals.push_back(turnedNormal(mesh, i, linear.inverse().transpose()));
-    appendTexcoord(model, mesh, i);
-  }
-  appendFaces(model, mesh, base, material);
+void appendRigid(Model& model, const aiMesh& mesh, std::uint16_t material, const Eigen::Matrix4d& to_world) {
+  const VertexPlace place(to_world.topRows<3>());
+  appendMesh(model, mesh, material, [&](unsigned) -> const VertexPlace& { return place; });
+}
+
+void appendBent(Model& model, const aiMesh& mesh, std::uint16_t material, const std::vector<BentVertex>& bent) {
+  appendMesh(model, mesh, material, [&](unsigned vertex) { return VertexPlace(bent[vertex]); });
 }
 
 // A file on its way into a model.
@@ -140,9 +149,9 @@ void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& paren
     const aiMesh& mesh = *import.scene.mMeshes[node.mMeshes[i]];
     const std::size_t before = import.model.triangles.size();
     if (mesh.HasBones() && import.bones != nullptr)
-      appendBent(import.model, mesh, import.bones->bend(mesh, to_world), material);
+      appendBent(import.model, mesh, material, import.bones->bend(mesh, to_world));
     else
-      appendMesh(import.model, mesh, to_world, material);
+      appendRigid(import.model, mesh, material, to_world);
     import.appearance.add(mesh, import.model.triangles.size() - before);
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i)

@@ -16,6 +16,7 @@
 #include "io/gltf_additions.h"
 #include "io/gltf_file.h"
 #include "io/gltf_item.h"
+#include "io/gltf_lists.h"
 #include "io/gltf_pose.h"
 #include "io/gltf_texcoords.h"
 
@@ -40,26 +41,16 @@ class GltfSimplifier {
   /// Whether anything changed.
   bool simplify() {
     makeUnitTurns();
-    for (json::value& mesh : listOf("meshes")) {
-      json::value* const primitives = mesh.as_object().if_contains("primitives");
-      if (primitives == nullptr) continue;
-      for (json::value& primitive : primitives->as_array()) simplify(primitive.as_object());
-    }
+    forEachGltfPrimitive(root_, [this](json::object& primitive) { simplify(primitive); });
     return changed_;
   }
 
  private:
-  json::array& listOf(std::string_view name) {
-    static json::array none;
-    json::value* const list = root_.if_contains(name);
-    return list == nullptr ? none : list->as_array();
-  }
-
   // The reader makes a shear of a turn of another length.
   void makeUnitTurns() {
     constexpr double kRounding = 1e-6, kTolerance = 1e-3;
     std::size_t number = 0;
-    for (json::value& node : listOf("nodes")) {
+    for (json::value& node : gltfList(root_, "nodes")) {
       json::value* const rotation = node.as_object().if_contains("rotation");
       const std::size_t of_node = number++;
       if (rotation == nullptr) continue;

@@ -13,7 +13,6 @@ namespace hl {
 
 namespace {
 
-constexpr int kDeepestElement = 500;  // the parser takes some of the stack for each
 // What a browser of X3D never shows, and what says which event goes where.
 constexpr std::array<std::string_view, 8> kMovers{"RigidBodyCollection", "RigidBody",      "CollisionCollection",
                                                   "CollisionSensor",     "CollisionSpace", "CollidableOffset",
@@ -57,7 +56,7 @@ void checkDepth(const std::string& text) {
     } else {
       at = behindTag(text, at);
       const bool closed = at >= 2 && text[at - 2] == '/';
-      if (rest[1 < rest.size() ? 1 : 0] != '!' && !closed && ++depth > kDeepestElement)
+      if (rest[1 < rest.size() ? 1 : 0] != '!' && !closed && ++depth > kDeepestX3d)
         throw Error("its nodes are nested too deep");
     }
   }
@@ -69,7 +68,7 @@ class Restorer {
   explicit Restorer(const X3dDocument& document) : document_(document) {}
 
   void restore(X3dTree& parent, int depth = 0) {
-    if (depth > 2 * kDeepestElement) throw Error("its nodes are nested too deep");
+    if (depth > 2 * kDeepestX3d) throw Error("its nodes are nested too deep");
     for (X3dNode& child : parent) {
       if (child.first == kX3dFields) continue;
       if (const auto use = x3dField(child, "USE"); use && !known_.contains(*use)) {
@@ -152,6 +151,12 @@ std::optional<std::string> x3dField(const X3dNode& node, const std::string& name
 void eraseX3dField(X3dTree& node, const std::string& name) {
   const auto attributes = node.find(kX3dFields);
   if (attributes != node.not_found()) attributes->second.erase(name);
+}
+
+void addX3dScope(X3dNode& node, const std::string& scope) {
+  for (const char* name : {"DEF", "USE"}) {
+    if (const auto text = x3dField(node, name)) setX3dField(node.second, name, *text + scope);
+  }
 }
 
 bool isX3dElement(const X3dNode& node) { return !node.first.empty() && node.first.front() != '<'; }

@@ -23,7 +23,8 @@ using X3dNode = X3dTree::value_type;
 using X3dNodes = std::set<const X3dNode*>;
 
 inline constexpr std::size_t kMaxX3dBytes = std::size_t{256} << 20;  ///< of a text; its tree takes several times that
-inline constexpr double kFarthestX3d_m = 1e6;                        ///< of places that are read, along each axis
+inline constexpr int kDeepestX3d = 500;        ///< elements: what walks a tree takes some of the stack for each
+inline constexpr double kFarthestX3d_m = 1e6;  ///< of places that are read, along each axis
 
 /// The nodes of a text. Throws hl::Error, one line, for what is no XML, too large or nested too deep. There are no
 /// entities but those of XML.
@@ -39,6 +40,8 @@ std::optional<std::string> x3dField(const X3dTree& node, const std::string& name
 void eraseX3dField(X3dTree& node, const std::string& name);
 /// Sets a field of the node whose fields and children these are.
 void setX3dField(X3dTree& node, const std::string& name, const std::string& value);
+/// Adds `scope` to the names that the node defines or uses, so that they are its own.
+void addX3dScope(X3dNode& node, const std::string& scope);
 /// Whether it is a node: not the fields of one, nor text.
 bool isX3dElement(const X3dNode& node);
 /// For warnings: "RigidBody 'door'".

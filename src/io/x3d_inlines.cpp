@@ -19,7 +19,6 @@ namespace hl {
 
 namespace {
 
-constexpr int kDeepestInlined = 500;             // elements, as of one document
 constexpr int kMostInlines = 16;                 // one within the other
 constexpr std::size_t kMostFiles = 10'000;       // each as often as it is inlined
 constexpr std::size_t kMostInlined = 1'000'000;  // nodes
@@ -40,10 +39,9 @@ std::vector<std::string> x3dStrings(const std::string& list) {
 
 void addToNames(X3dTree& parent, const std::string& scope) {
   for (X3dNode& child : parent) {
-    for (const char* name : {"DEF", "USE"}) {
-      if (const auto text = x3dField(child, name)) setX3dField(child.second, name, *text + scope);
-    }
-    if (isX3dElement(child)) addToNames(child.second, scope);
+    if (!isX3dElement(child)) continue;
+    addX3dScope(child, scope);
+    addToNames(child.second, scope);
   }
 }
 
@@ -68,7 +66,7 @@ class Inliner {
 
   // In the document at `path`.
   void expand(X3dTree& parent, const std::string& path, int nested, int depth = 0) {
-    if (depth > kDeepestInlined) throw Error("its nodes are nested too deep");
+    if (depth > kDeepestX3d) throw Error("its nodes are nested too deep");
     X3dTree expanded(parent.data());
     for (X3dNode& child : parent) {
       if (child.first == "Inline") {

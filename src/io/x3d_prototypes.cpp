@@ -120,9 +120,7 @@ class Expansion {
   // Gives the nodes the values of the fields that their IS names, and names that no other instance has.
   void connect(X3dNode& node, const FieldValues& values, const std::string& scope) {
     countNodes(1);
-    for (const char* name : {"DEF", "USE"}) {
-      if (const auto text = x3dField(node, name)) setX3dField(node.second, name, *text + scope);
-    }
+    addX3dScope(node, scope);
     X3dTree connected(node.second.data());
     for (X3dNode& child : node.second) {
       if (child.first == "IS") continue;

@@ -11,7 +11,6 @@ LiveSettings::LiveSettings(const TouchSettings& settings, const DeviceInfo& devi
       world_per_device_(settings.world_per_device),
       faults_(settings.faults),
       ledger_(settings.ledger),
-      fitted_(settings.world_per_device || !bounds.empty()),
       placed_(!bounds.empty()) {
   commands_.workspace = fitted(bounds);
   commands_.radius_W = radius_D_ * commands_.workspace.world_per_device;
@@ -53,11 +52,11 @@ void LiveSettings::setWorkspace(const Workspace& workspace) {
   if (!workspace.valid()) return;
   const std::lock_guard lock(mutex_);
   restartWith(workspace, radiusIn(workspace, commands_.radius_W / commands_.workspace.world_per_device));
-  fitted_ = placed_ = true;
+  placed_ = true;
 }
 
 double LiveSettings::radiusIn(const Workspace& workspace, double radius_D) const {
-  return radius_set_ && !fitted_ ? commands_.radius_W : radius_D * workspace.world_per_device;
+  return radius_set_ && !placed_ && !world_per_device_ ? commands_.radius_W : radius_D * workspace.world_per_device;
 }
 
 void LiveSettings::setRadius(double radius_W) {
@@ -69,11 +68,8 @@ void LiveSettings::setRadius(double radius_W) {
 
 void LiveSettings::fit(const Box& bounds) {
   const std::lock_guard lock(mutex_);
+  if (!world_per_device_) placeAt(bounds);
   placed_ = placed_ || !bounds.empty();
-  if (fitted_ || bounds.empty()) return;
-  const Workspace workspace = Workspace::fit(bounds, side_D_);
-  restartWith(workspace, radiusIn(workspace, radius_D_));
-  fitted_ = true;
 }
 
 double LiveSettings::topOfFitted_D(const Box& bounds) const {
@@ -84,16 +80,20 @@ void LiveSettings::refit(const Box& bounds) {
   if (bounds.empty()) return;
   const Workspace workspace = fitted(bounds);
   const std::lock_guard lock(mutex_);
-  fitted_ = placed_ = true;
+  placed_ = true;
   restartWith(workspace, radius_D_ * workspace.world_per_device);
 }
 
 void LiveSettings::fitToOthers(const Box& bounds) {
   const std::lock_guard lock(mutex_);
+  placeAt(bounds);
+}
+
+void LiveSettings::placeAt(const Box& bounds) {
   if (placed_ || bounds.empty()) return;
   const Workspace workspace = fitted(bounds);
   restartWith(workspace, radiusIn(workspace, radius_D_));
-  placed_ = fitted_ = true;
+  placed_ = true;
 }
 
 bool LiveSettings::isPlaced() const {

@@ -61,6 +61,7 @@ class LiveSettings {
 
  private:
   void restartWith(const Workspace& workspace, double radius_W);  // holding mutex_
+  void placeAt(const Box& bounds);  // where nobody has placed the workspace; holding mutex_
   Workspace fitted(const Box& bounds) const;
   double radiusIn(const Workspace& workspace, double radius_D) const;
 
@@ -73,7 +74,6 @@ class LiveSettings {
 
   mutable std::mutex mutex_;  // of what follows; the loops never see it
   ProxyCommands commands_;
-  bool fitted_ = false;  // the workspace has been set, or fitted to a scene, or its scale was given
   bool placed_ = false;  // the workspace has been set, or a scene has been shown
   bool radius_set_ = false;
   Latest<ProxyCommands> commands_for_proxy_{ProxyCommands{}};

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -57,6 +58,14 @@ std::vector<sock_filter> filterFor(std::span<const int> allowed) {
 }
 
 }  // namespace
+
+bool trapsArePermitted() {
+  const pid_t child = fork();
+  if (child == 0) _exit(trapSystemCalls() ? 0 : 1);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
 
 bool trapSystemCalls(std::span<const int> allowed) {
   if (kArchitecture == 0) return false;

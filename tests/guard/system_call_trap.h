@@ -12,5 +12,7 @@ inline constexpr int kTrappedExit = 91;
 /// From now on, each system call of the calling thread that is not in `allowed` ends the process. exit_group() and
 /// write() to stderr always pass. False: the kernel does not permit it, and nothing is trapped.
 bool trapSystemCalls(std::span<const int> allowed = {});
+/// Whether the kernel permits it: tried in a process of its own.
+bool trapsArePermitted();
 
 }  // namespace hl

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sys/syscall.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -147,17 +146,6 @@ constexpr int kNotPermitted = 92;
 
 void trap() {
   if (!trapSystemCalls()) _exit(kNotPermitted);
-}
-
-bool trapsArePermitted() {
-  const pid_t child = fork();
-  if (child == 0) {
-    trap();
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 class SystemCallTrapDeathTest : public testing::Test {

@@ -82,7 +82,6 @@ TEST(Appearance, PicturesOfGltfLieOverTheirOwnTextureCoordinatesAsTheyAreTransfo
     gltf.attribute("TEXCOORD_0", gltf.add(std::vector<float>(6, 0.5F), 3, "VEC2"));
     gltf.attribute("TEXCOORD_1", gltf.add(coordinates, 3, "VEC2"));
     gltf.primitive = R"(,"material":0)";
-    gltf.nodes = R"({"mesh":0})";
     const float x = number(), y = number(), angle = number(), u = number(), v = number();
     fileWith("lies.png", pngOf(2));
     gltf.rest = fmt::format(
@@ -90,7 +89,7 @@ TEST(Appearance, PicturesOfGltfLieOverTheirOwnTextureCoordinatesAsTheyAreTransfo
         R"({{"baseColorTexture":{{"index":0,"texCoord":{},"extensions":{{"KHR_texture_transform":)"
         R"({{"offset":[{},{}],"rotation":{},"scale":[{},{}]{}}}}}}}}}}}])",
         round % 2, x, y, angle, u, v, round % 2 == 0 ? R"(,"texCoord":1)" : "");
-    const Model model = loadModel(fileWith("lies.gltf", gltf.text()));
+    const Model model = loadModel(fileWith("lies.gltf", gltf.gltf()));
     EXPECT_TRUE(model.warnings.empty());
     ASSERT_EQ(model.texcoords.size(), 3u);
     ASSERT_TRUE(paintOf(model, 0).picture);
@@ -107,11 +106,10 @@ TEST(Appearance, APictureOverTextureCoordinatesThatAreNotThereIsAWarning) {
   test::GltfDocument gltf;
   gltf.attribute("POSITION", gltf.add({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3, "VEC3"));
   gltf.primitive = R"(,"material":0)";
-  gltf.nodes = R"({"mesh":0})";
   fileWith("over.png", pngOf(2));
   gltf.rest = R"(,"images":[{"uri":"over.png"}],"textures":[{"source":0}],"materials":[{"pbrMetallicRoughness":)"
               R"({"baseColorTexture":{"index":0,"texCoord":3}}}])";
-  const Model model = loadModel(fileWith("over.gltf", gltf.text()));
+  const Model model = loadModel(fileWith("over.gltf", gltf.gltf()));
   ASSERT_EQ(model.warnings.size(), 1u);
   EXPECT_EQ(model.warnings[0],
             "meshes/0/primitives/0: has no TEXCOORD_3 that can be read, over which its picture lies");

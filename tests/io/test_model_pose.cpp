@@ -18,17 +18,10 @@
 namespace hl::test_model_pose {
 namespace {
 
+using test::cornersOf;
 using test::fileWith;
 using test::GltfDocument;
 using test::loadRefusal;
-
-std::vector<Vec3> cornersOf(const Model& model) {
-  std::vector<Vec3> corners;
-  for (const auto& triangle : model.triangles) {
-    for (const std::uint32_t index : triangle) corners.push_back(model.positions[index]);
-  }
-  return corners;
-}
 
 // A mesh of random triangles without shared corners, bent by a skin of random joints with up to two sets of weights and
 // by morph targets, and where each corner has to be (glTF 2.0, 3.7.3.3).
@@ -138,7 +131,7 @@ TEST(ModelPose, SkinsAndMorphTargetsOfGltfBendAsTheyAreDefined) {
     Character character(seed);
     const GltfDocument gltf =
         character.document(static_cast<int>(seed % 3), seed % 2 == 0 ? 0 : character.between(-1, 1));
-    const Model model = loadModel(fileWith("character.gltf", gltf.text()));
+    const Model model = loadModel(fileWith("character.gltf", gltf.gltf()));
     EXPECT_TRUE(model.warnings.empty()) << seed;
     const std::vector<Vec3> corners = cornersOf(model), expected = character.expected();
     ASSERT_EQ(corners.size(), expected.size()) << seed;
@@ -161,7 +154,7 @@ GltfDocument turnedSquare() {
 }
 
 TEST(ModelPose, NormalsTurnWithTheirSkin) {
-  const Model model = loadModel(fileWith("turned.gltf", turnedSquare().text()));
+  const Model model = loadModel(fileWith("turned.gltf", turnedSquare().gltf()));
   ASSERT_EQ(model.normals.size(), 3u);
   for (const Vec3& normal : model.normals) EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-6);
   EXPECT_LT((cornersOf(model)[2] - Vec3(0, 0, 1)).norm(), 1e-6);
@@ -172,7 +165,7 @@ TEST(ModelPose, AMeshOfTwoNodesIsBentByEach) {
   gltf.nodes += R"(,{"mesh":0},{"mesh":0,"skin":1},{"translation":[0,0,5]})";
   gltf.scene_nodes = "0,1,2,3,4";
   gltf.rest = R"(,"skins":[{"joints":[1]},{"joints":[4]}])";
-  const std::vector<Vec3> corners = cornersOf(loadModel(fileWith("two.gltf", gltf.text())));
+  const std::vector<Vec3> corners = cornersOf(loadModel(fileWith("two.gltf", gltf.gltf())));
   ASSERT_EQ(corners.size(), 9u);
   EXPECT_LT((corners[2] - Vec3(0, 0, 1)).norm(), 1e-6);
   EXPECT_LT((corners[5] - Vec3(0, 1, 0)).norm(), 1e-6);
@@ -180,7 +173,7 @@ TEST(ModelPose, AMeshOfTwoNodesIsBentByEach) {
 }
 
 TEST(ModelPose, SkinsThatContradictThemselvesAreRefused) {
-  const auto refusal = [](const GltfDocument& gltf) { return loadRefusal(fileWith("wrong.gltf", gltf.text())); };
+  const auto refusal = [](const GltfDocument& gltf) { return loadRefusal(fileWith("wrong.gltf", gltf.gltf())); };
   GltfDocument joint = turnedSquare();
   joint.rest = R"(,"skins":[{"joints":[7]}])";
   EXPECT_NE(refusal(joint).find("skins/0: its joints/0 is 7, and there are 2 nodes, from 0"), std::string::npos);
@@ -201,7 +194,7 @@ TEST(ModelPose, SkinsThatContradictThemselvesAreRefused) {
 TEST(ModelPose, ASkinWhoseNodeHasNoExtentIsLeftOutWithAWarning) {
   GltfDocument gltf = turnedSquare();
   gltf.nodes = R"({"mesh":0,"skin":0,"scale":[0,1,1]},{})";
-  const Model model = loadModel(fileWith("flat.gltf", gltf.text()));
+  const Model model = loadModel(fileWith("flat.gltf", gltf.gltf()));
   ASSERT_FALSE(model.warnings.empty());
   EXPECT_NE(model.warnings[0].find("nodes/0: its transform has no inverse"), std::string::npos) << model.warnings[0];
 }

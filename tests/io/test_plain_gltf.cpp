@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "gltf_document.h"
 #include "io/base64.h"
 #include "io/load_model.h"
 #include "load_refusal.h"
@@ -23,66 +24,23 @@
 namespace hl::test_plain_gltf {
 namespace {
 
+using test::cornersOf;
 using test::fileWith;
 using test::loadRefusal;
+using test::put;
 
-template <typename Value>
-void put(std::string& bytes, Value value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-std::string joined(const std::vector<std::string>& list) {
-  std::string text;
-  for (const std::string& one : list) text += (text.empty() ? "" : ",") + one;
-  return "[" + text + "]";
-}
-
-// The parts of a document, which tests change: a square of two triangles.
-struct Document {
-  std::string bytes;
-  std::vector<std::string> views, accessors;
-  std::string attributes = R"("POSITION":0)", primitive = R"(,"indices":1)";
-  std::string nodes = R"([{"mesh":0}])", scene_nodes = "[0]", rest;
-  std::size_t buffer_bytes = 0;  // 0: as many as there are
-
+// Which tests change: a square of two triangles.
+struct Document : test::GltfDocument {
   Document() {
+    attributes = R"("POSITION":0)";
+    primitive = R"(,"indices":1)";
     for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 1.F, 1.F, 0.F, 0.F, 1.F, 0.F}) put(bytes, x);
     for (const std::uint16_t index : {0, 1, 2, 0, 2, 3}) put(bytes, index);
     views = {R"({"buffer":0,"byteLength":48})", R"({"buffer":0,"byteOffset":48,"byteLength":12})"};
     accessors = {R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,0]})",
                  R"({"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"})"};
   }
-
-  std::string json(const std::string& uri) const {
-    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":)" + scene_nodes + R"(}],"nodes":)" + nodes +
-           R"(,"meshes":[{"primitives":[{"attributes":{)" + attributes + "}" + primitive + R"(}]}],"accessors":)" +
-           joined(accessors) + R"(,"bufferViews":)" + joined(views) + R"(,"buffers":[{"byteLength":)" +
-           std::to_string(buffer_bytes == 0 ? bytes.size() : buffer_bytes) + uri + "}]" + rest + "}";
-  }
-  std::string gltf() const { return json(R"(,"uri":"data:application/octet-stream;base64,)" + toBase64(bytes) + '"'); }
-  std::string glb() const {
-    std::string text = json(""), binary = bytes;
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    binary.resize((binary.size() + 3) / 4 * 4, '\0');
-    std::string file = "glTF";
-    put(file, std::uint32_t{2});
-    put(file, static_cast<std::uint32_t>(28 + text.size() + binary.size()));
-    put(file, static_cast<std::uint32_t>(text.size()));
-    put(file, std::uint32_t{0x4E4F534A});
-    file += text;
-    put(file, static_cast<std::uint32_t>(binary.size()));
-    put(file, std::uint32_t{0x004E4942});
-    return file + binary;
-  }
 };
-
-std::vector<Vec3> cornersOf(const Model& model) {
-  std::vector<Vec3> corners;
-  for (const auto& triangle : model.triangles) {
-    for (const std::uint32_t index : triangle) corners.push_back(model.positions[index]);
-  }
-  return corners;
-}
 
 void expectRefusal(const Document& document, const std::string& part) {
   for (const auto& [name, content] : {std::pair("r.gltf", document.gltf()), std::pair("r.glb", document.glb())}) {
@@ -176,23 +134,27 @@ TEST(PlainGltf, PrimitivesThatContradictThemselvesAreRefused) {
 
 TEST(PlainGltf, NodesThatContradictThemselvesAreRefused) {
   const auto nodes = [](const std::string& text) { return [=](Document& d) { d.nodes = text; }; };
-  expectRefusal(nodes(R"([{"mesh":1}])"), "nodes/0: its mesh is 1, and there are 1 meshes, from 0");
-  expectRefusal(nodes(R"([{"mesh":0,"children":[1]}])"), "nodes/0: its children/0 is 1, and there are 1 nodes");
-  expectRefusal(nodes(R"([{"mesh":0,"children":[1]},{"children":[0]}])"), "nodes/0: is below itself");
-  expectRefusal(nodes(R"([{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0]}])"),
+  expectRefusal(nodes(R"({"mesh":1})"), "nodes/0: its mesh is 1, and there are 1 meshes, from 0");
+  expectRefusal(nodes(R"({"mesh":0,"children":[1]})"), "nodes/0: its children/0 is 1, and there are 1 nodes");
+  expectRefusal(nodes(R"({"mesh":0,"children":[1]},{"children":[0]})"), "nodes/0: is below itself");
+  expectRefusal(nodes(R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0]})"),
                 "nodes/0: its matrix is no list of 16 numbers");
-  expectRefusal(nodes(R"([{"mesh":0,"rotation":[0,0,1]}])"), "nodes/0: its rotation is no list of 4 numbers");
-  expectRefusal(nodes(R"([{"mesh":0,"rotation":[0,0,0,0]}])"), "nodes/0: its rotation is 0 0 0 0");
-  expectRefusal([](Document& d) { d.scene_nodes = "[3]"; }, "scenes/0: its nodes/0 is 3, and there are 1 nodes");
+  expectRefusal(nodes(R"({"mesh":0,"rotation":[0,0,1]})"), "nodes/0: its rotation is no list of 4 numbers");
+  expectRefusal(nodes(R"({"mesh":0,"rotation":[0,0,0,0]})"), "nodes/0: its rotation is 0 0 0 0");
+  expectRefusal(nodes(R"({"mesh":0,"rotation":[1e-200,0,0,0]})"), "nodes/0: its rotation is too small or too large");
+  expectRefusal([](Document& d) { d.scene_nodes = "3"; }, "scenes/0: its nodes/0 is 3, and there are 1 nodes");
   std::string chain;
   for (int i = 1; i < 100'000; ++i) chain += fmt::format(R"({{"children":[{}]}},)", i);
-  expectRefusal(nodes("[" + chain + R"({"mesh":0}])"), "the nodes below it are nested too deep");
+  expectRefusal(nodes(chain + R"({"mesh":0})"), "the nodes below it are nested too deep");
+  std::string doubling;
+  for (int i = 1; i <= 40; ++i) doubling += fmt::format(R"({{"children":[{0},{0}]}},)", i);
+  expectRefusal(nodes(doubling + R"({"mesh":0})"), "the nodes below it are there more than a million times");
 }
 
 TEST(PlainGltf, ATurnOfAnotherLengthIsATurn) {
   for (const double length : {1.0005, 3.0}) {
     Document turned;
-    turned.nodes = fmt::format(R"([{{"mesh":0,"rotation":[0,0,{0:.12g},{0:.12g}]}}])", length * std::sqrt(0.5));
+    turned.nodes = fmt::format(R"({{"mesh":0,"rotation":[0,0,{0:.12g},{0:.12g}]}})", length * std::sqrt(0.5));
     const Model model = loadModel(fileWith("turned.gltf", turned.gltf()));
     EXPECT_LT((cornersOf(model)[1] - Vec3(0, 1, 0)).norm(), 1e-6);
     const std::string said = "nodes/0: its rotation has the length 3 and is read as one of 1";
@@ -202,8 +164,8 @@ TEST(PlainGltf, ATurnOfAnotherLengthIsATurn) {
 
 TEST(PlainGltf, ASkinWithoutMatricesStandsAsItWasModelled) {
   Document skinned;
-  skinned.nodes = R"([{"mesh":0,"skin":0},{"name":"joint"}])";
-  skinned.scene_nodes = "[0,1]";
+  skinned.nodes = R"({"mesh":0,"skin":0},{"name":"joint"})";
+  skinned.scene_nodes = "0,1";
   skinned.rest = R"(,"skins":[{"joints":[1]}])";
   const std::size_t begin = skinned.bytes.size();
   for (int i = 0; i < 4; ++i) put(skinned.bytes, std::uint32_t{0});

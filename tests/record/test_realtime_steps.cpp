@@ -4,7 +4,6 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,14 +31,6 @@ constexpr int kSteps = 1'000'000;
 constexpr int kWarmUp = 2'000;
 constexpr int kRealSteps = 2'500;  // the loop asks for the kernel's counts once a second
 constexpr int kNotPermitted = 92, kNoForce = 93;
-
-bool trapsArePermitted() {
-  const pid_t child = fork();
-  if (child == 0) _exit(trapSystemCalls() ? 0 : kNotPermitted);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
 
 class RealtimeStepsDeathTest : public testing::Test {
  protected:

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
+
 namespace hl::test_client_table {
 namespace {
 
@@ -83,6 +85,17 @@ TEST_F(ClientTableTest, WhoIsWithABuilderGoesWhenThatIsDone) {
   EXPECT_TRUE(table.awaitChange());
   table.eraseGone(parts);
   EXPECT_TRUE(table.take().of_clients.empty());
+}
+
+TEST(BodyAdmission, ABaseThatIsToComeKeepsItsRoom) {
+  BodyAdmission admission({}, 1);
+  const SceneLimits limits;
+  EXPECT_NO_THROW(admission.check({200, 0}, {}, limits));
+  admission.reserve({kMaxBodies - 100, 0});
+  EXPECT_THROW(admission.check({200, 0}, {}, limits), Error);
+  EXPECT_NO_THROW(admission.check({100, 0}, {}, limits));
+  admission.setBase({100, 0});
+  EXPECT_NO_THROW(admission.check({200, 0}, {}, limits));
 }
 
 TEST_F(ClientTableTest, NobodyWaitsWhereItHasStopped) {
